@@ -1,0 +1,1 @@
+//! L3: the versioned file format, links, pasted matrices, exports.

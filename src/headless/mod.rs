@@ -1,0 +1,1 @@
+//! L4: the commands of the command line.

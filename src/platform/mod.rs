@@ -1,0 +1,1 @@
+//! L4: native and web: threads or workers, files, clipboard.

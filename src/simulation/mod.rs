@@ -1,0 +1,1 @@
+//! L3: plant and observer together in time.

@@ -1,0 +1,5 @@
+//! L1: what is observed: descriptor systems, their structure and their properties.
+
+mod descriptor;
+
+pub use descriptor::{DescriptorSystem, SystemError, TimeDomain};
