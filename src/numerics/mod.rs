@@ -3,8 +3,10 @@
 mod block;
 mod eigen;
 mod error;
+mod pencil;
 mod rank;
 mod spectrum;
+mod stability;
 mod subspace;
 mod svd;
 mod tolerance;
@@ -13,8 +15,12 @@ pub use block::{Block, block_matrix, side_by_side, stack};
 pub use eigen::eigenvalues;
 pub use error::NumericsError;
 pub use num_complex::Complex64;
+pub use pencil::{
+    PencilStructure, RankDrop, RankDropAnalysis, RankDropPoint, pencil_structure, rank_drop_points,
+};
 pub use rank::{RankDecision, complex_rank, rank};
 pub use spectrum::{PoleOrPair, conjugate_pairs, matching, sort_spectrum, spectral_distance};
+pub use stability::{ModePosition, StabilityRegion};
 pub use subspace::{Subspaces, null_space, pseudo_inverse, subspaces};
 pub use svd::{Svd, complex_svd, svd};
 pub use tolerance::Tolerance;
