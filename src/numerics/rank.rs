@@ -50,8 +50,10 @@ impl RankDecision {
         let below = singular_values.get(rank).copied().unwrap_or(0.0);
         let above = rank.checked_sub(1).map_or(0.0, |last| singular_values[last]);
         let gap = if below == 0.0 { f64::INFINITY } else { above / below };
-        let near = |s: f64| s > threshold / tolerance.gap && s < threshold * tolerance.gap;
-        let fragile = (rank > 0 && gap < tolerance.gap) || near(above) || near(below);
+        // what is left out is plain rounding up to max(rows, columns) * EPSILON * scale, hence no reason for doubt
+        let rounding = threshold / tolerance.rank;
+        let close = rank > 0 && (gap < tolerance.gap || above < threshold * tolerance.gap);
+        let fragile = close || below > rounding;
         Self { rows, columns, rank, singular_values, threshold, gap, fragile }
     }
 }
@@ -114,6 +116,14 @@ mod tests {
             "1e-14 is within a factor of a thousand of the threshold {}",
             decision.threshold
         );
+    }
+
+    #[test]
+    fn plain_rounding_below_the_threshold_is_not_fragile() {
+        let third = 1.0 / 3.0;
+        let noisy = dmatrix![0.1, 0.3, 0.7; third, 1.0, 7.0 / 3.0; 0.7, 2.1, 4.9];
+        let decision = rank(&noisy, 0.0, &Tolerance::default()).unwrap();
+        assert_eq!((decision.rank, decision.fragile), (1, false), "multiples of one row: {decision:?}");
     }
 
     #[test]
