@@ -15,6 +15,7 @@ pub use block::{Block, block_matrix, side_by_side, stack};
 pub use eigen::eigenvalues;
 pub use error::NumericsError;
 pub use num_complex::Complex64;
+pub(crate) use pencil::normalised;
 pub use pencil::{
     PencilStructure, RankDrop, RankDropAnalysis, RankDropPoint, pencil_structure, rank_drop_points,
 };

@@ -93,7 +93,7 @@ fn check(a: &DMatrix<f64>, e: &DMatrix<f64>) -> Result<(), NumericsError> {
 }
 
 /// A matrix divided by its norm, and that norm (one for a zero matrix); extreme entries do not overflow.
-fn normalised(matrix: &DMatrix<f64>) -> (DMatrix<f64>, f64) {
+pub(crate) fn normalised(matrix: &DMatrix<f64>) -> (DMatrix<f64>, f64) {
     let largest = if matrix.is_empty() { 0.0 } else { matrix.amax() };
     if largest == 0.0 {
         return (matrix.clone(), 1.0);
