@@ -1,4 +1,9 @@
 //! The properties of fifteen systems from the literature against exact (symbolic) reference values.
+#![expect(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "helpers of tests, which clippy takes for library code"
+)]
 
 use descry::numerics::{Complex64, Tolerance, matching, rank};
 use descry::system::DescriptorSystem;
