@@ -5,6 +5,7 @@ mod eigen;
 mod error;
 mod fixed_modes;
 mod pbh;
+mod placement;
 mod random;
 mod rank;
 mod spectrum;
@@ -17,6 +18,9 @@ pub use eigen::eigenvalues;
 pub use error::NumericsError;
 pub use fixed_modes::{ObservableQuotient, PbhMode, observable_quotient, pbh_modes};
 pub use num_complex::Complex64;
+pub use placement::{
+    Placement, PlacementError, PlacementMethod, PlacementOptions, PlacementWarning, place_observer,
+};
 pub use random::Random;
 pub use rank::{RankDecision, complex_rank, rank};
 pub use spectrum::{PoleOrPair, conjugate_pairs, matching, sort_spectrum, spectral_distance};
