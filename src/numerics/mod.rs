@@ -4,6 +4,10 @@ mod block;
 mod eigen;
 mod error;
 mod pencil;
+mod fixed_modes;
+mod pbh;
+mod placement;
+mod random;
 mod rank;
 mod spectrum;
 mod stability;
@@ -14,11 +18,16 @@ mod tolerance;
 pub use block::{Block, block_matrix, side_by_side, stack};
 pub use eigen::eigenvalues;
 pub use error::NumericsError;
+pub use fixed_modes::{ObservableQuotient, PbhMode, observable_quotient, pbh_modes};
 pub use num_complex::Complex64;
 pub(crate) use pencil::normalised;
 pub use pencil::{
     PencilStructure, RankDrop, RankDropAnalysis, RankDropPoint, pencil_structure, rank_drop_points,
 };
+pub use placement::{
+    Placement, PlacementError, PlacementMethod, PlacementOptions, PlacementWarning, place_observer,
+};
+pub use random::Random;
 pub use rank::{RankDecision, complex_rank, rank};
 pub use spectrum::{PoleOrPair, conjugate_pairs, matching, sort_spectrum, spectral_distance};
 pub use stability::{ModePosition, StabilityRegion};

@@ -1,0 +1,164 @@
+//! Smallest singular values of `[lambda I - A; C]` at the eigenvalues of `A`.
+
+use nalgebra::DMatrix;
+use num_complex::Complex64;
+
+use super::fixed_modes::PbhMode;
+use super::{NumericsError, Tolerance, complex_svd, eigenvalues, svd};
+
+/// Eigenvalues closer than this, relative to the larger of their size and the norm of `A` per state, form a cluster.
+const CLUSTER_TOLERANCE: f64 = 1e-4;
+
+/// A tested cluster; conjugate clusters appear once, by their upper member.
+pub(super) struct Test {
+    pub(super) mode: PbhMode,
+    /// Columns that span `ker [value I - A; C]`.
+    pub(super) null: DMatrix<Complex64>,
+}
+
+/// Tests every cluster of eigenvalues of a pair; `scale` is the norm of the pair it was computed from.
+///
+/// # Errors
+/// As [`eigenvalues`] and [`svd`].
+pub(super) fn tests(
+    a: &DMatrix<f64>,
+    c: &DMatrix<f64>,
+    scale: f64,
+    tolerance: &Tolerance,
+) -> Result<Vec<Test>, NumericsError> {
+    let n = a.nrows();
+    let spectrum = eigenvalues(a)?;
+    let reach = CLUSTER_TOLERANCE * a.norm() / (n.max(1) as f64).sqrt();
+    let mut result = Vec::new();
+    for cluster in clusters(spectrum, reach) {
+        let mean = cluster.iter().sum::<Complex64>() / cluster.len() as f64;
+        let spread = cluster.iter().map(|z| (z - mean).norm()).fold(0.0, f64::max);
+        // a cluster that meets the real axis is closed under conjugation: its mean is real
+        let real = mean.im.abs() <= spread + f64::EPSILON * scale;
+        if !real && mean.im < 0.0 {
+            continue;
+        }
+        let mean = if real { Complex64::from(mean.re) } else { mean };
+        let candidates = if cluster.len() == 1 { vec![mean] } else { [&[mean], &cluster[..]].concat() };
+        let mut best = least_seen(a, c, mean)?;
+        for &candidate in candidates.iter().filter(|z| !real || z.im == 0.0).skip(1) {
+            best = best.better(least_seen(a, c, candidate)?);
+        }
+        best = refined(a, c, best, mean, 10.0 * spread + 1e-8 * scale)?;
+        let limit = tolerance.mode * scale;
+        let nullity = best.singular_values.iter().filter(|s| **s <= limit).count();
+        let distance = best.smallest() / scale.max(f64::MIN_POSITIVE);
+        let unobservable = nullity > 0;
+        let direction = normalised(best.v.column(n - 1).iter().copied());
+        let mode = PbhMode {
+            value: best.at,
+            multiplicity: cluster.len(),
+            distance,
+            nullity,
+            unobservable,
+            direction,
+        };
+        result.push(Test { mode, null: best.v.columns(n - nullity, nullity).into_owned() });
+    }
+    Ok(result)
+}
+
+/// Groups eigenvalues that are linked by steps shorter than the reach.
+fn clusters(mut spectrum: Vec<Complex64>, reach: f64) -> Vec<Vec<Complex64>> {
+    let mut result = Vec::new();
+    while !spectrum.is_empty() {
+        let mut cluster = vec![spectrum.remove(0)];
+        let mut next = 0;
+        while let Some(&center) = cluster.get(next) {
+            let limit = reach.max(CLUSTER_TOLERANCE * center.norm());
+            let (near, far) = spectrum.iter().partition(|z| (**z - center).norm() <= limit);
+            spectrum = far;
+            cluster.extend::<Vec<_>>(near);
+            next += 1;
+        }
+        result.push(cluster);
+    }
+    result
+}
+
+/// `[at I - A; C]` by its singular values and vectors.
+struct LeastSeen {
+    at: Complex64,
+    singular_values: Vec<f64>,
+    /// `u' v` over the first n rows for the smallest singular value: its derivative along `at`.
+    slope: Complex64,
+    v: DMatrix<Complex64>,
+}
+
+impl LeastSeen {
+    fn smallest(&self) -> f64 {
+        self.singular_values.last().copied().unwrap_or(0.0)
+    }
+
+    fn better(self, other: Self) -> Self {
+        if other.smallest() < self.smallest() { other } else { self }
+    }
+}
+
+fn least_seen(a: &DMatrix<f64>, c: &DMatrix<f64>, at: Complex64) -> Result<LeastSeen, NumericsError> {
+    let n = a.nrows();
+    let entry = |i: usize, j: usize| {
+        if i >= n {
+            return c[(i - n, j)];
+        }
+        if i == j { at.re - a[(i, j)] } else { -a[(i, j)] }
+    };
+    let rows = n + c.nrows();
+    let (singular_values, u, v) = if at.im == 0.0 {
+        let found = svd(&DMatrix::from_fn(rows, n, entry))?;
+        (found.s, found.u.map(Complex64::from), found.v.map(Complex64::from))
+    } else {
+        let imaginary = |i: usize, j: usize| if i == j { at.im } else { 0.0 };
+        let found =
+            complex_svd(&DMatrix::from_fn(rows, n, |i, j| Complex64::new(entry(i, j), imaginary(i, j))))?;
+        (found.s, found.u, found.v)
+    };
+    let slope = (0..n).map(|i| u[(i, n - 1)].conj() * v[(i, n - 1)]).sum();
+    Ok(LeastSeen { at, singular_values, slope, v })
+}
+
+/// Newton steps on the smallest singular value, kept while it falls and the point stays near its cluster.
+fn refined(
+    a: &DMatrix<f64>,
+    c: &DMatrix<f64>,
+    start: LeastSeen,
+    center: Complex64,
+    reach: f64,
+) -> Result<LeastSeen, NumericsError> {
+    const STEPS: usize = 25;
+    const FLAT: f64 = 1e-14;
+    let real = start.at.im == 0.0;
+    let mut best = start;
+    for _ in 0..STEPS {
+        if best.slope.norm() < FLAT || best.smallest() <= f64::EPSILON * (a.norm() + c.norm()) {
+            break;
+        }
+        let step = best.smallest() / best.slope;
+        let step = if real { Complex64::from(step.re) } else { step };
+        let next = best.at - step;
+        if (next - center).norm() > reach || step.norm() <= f64::EPSILON * next.norm() {
+            break;
+        }
+        let next = least_seen(a, c, next)?;
+        if next.smallest() >= best.smallest() {
+            break;
+        }
+        best = next;
+    }
+    Ok(best)
+}
+
+/// Divides by the entry of largest absolute value.
+fn normalised(vector: impl Iterator<Item = Complex64> + Clone) -> Vec<Complex64> {
+    // the first of entries that are equal up to rounding, so that rounding does not choose
+    const ALMOST: f64 = 1.0 - 1e-9;
+    let largest = vector.clone().map(Complex64::norm).fold(0.0, f64::max);
+    let pivot = vector.clone().find(|z| z.norm() >= ALMOST * largest && largest > 0.0);
+    let pivot = pivot.unwrap_or(Complex64::ONE);
+    vector.map(|z| z / pivot).collect()
+}
