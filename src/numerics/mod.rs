@@ -3,6 +3,7 @@
 mod block;
 mod eigen;
 mod error;
+pub mod integrate;
 mod rank;
 mod spectrum;
 mod subspace;
