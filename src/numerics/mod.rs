@@ -8,6 +8,7 @@ mod fixed_modes;
 mod pbh;
 mod placement;
 mod random;
+pub mod integrate;
 mod rank;
 mod spectrum;
 mod stability;

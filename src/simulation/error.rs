@@ -1,0 +1,109 @@
+//! Why a simulation was refused or could not be completed.
+
+use crate::numerics::NumericsError;
+use crate::numerics::integrate::IntegrationError;
+use crate::system::SystemError;
+
+/// A simulation that was refused, or that could not be completed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SimulationError {
+    /// More or fewer equations than states.
+    #[error(
+        "E is {equations} x {states}, so the plant alone does not determine its motion; \
+         a simulation needs as many equations as states"
+    )]
+    NotSquare {
+        /// Rows of `E`.
+        equations: usize,
+        /// Columns of `E`.
+        states: usize,
+    },
+    /// The algebraic equations do not determine the algebraic states.
+    #[error(
+        "the plant is not of index 1: its {algebraic} algebraic equations do not determine as many states \
+         (smallest singular value of A22 = U2' A V2 is {smallest:.1e}, {threshold:.1e} is needed); \
+         impulses would occur, or the motion is not unique. Check the rows of A where E is zero"
+    )]
+    NotIndexOne {
+        /// Number of algebraic equations.
+        algebraic: usize,
+        /// Smallest singular value of `A22`.
+        smallest: f64,
+        /// What it has to exceed.
+        threshold: f64,
+    },
+    /// The uncertain algebraic equations become dependent on the way.
+    #[error(
+        "the plant loses index 1 at t = {time:.6}: the smallest singular value of A22(t) falls to {smallest:.1e}, \
+         impulses would occur. Lower the amplitude of the uncertainty of {entries}"
+    )]
+    LosesIndexOne {
+        /// First time at which this happens.
+        time: f64,
+        /// Smallest singular value of `A22` there.
+        smallest: f64,
+        /// The uncertain entries of `A` that enter `A22`, as text.
+        entries: String,
+    },
+    /// A matrix or vector that does not fit the others.
+    #[error("{what} is {} x {}, but {} x {} is needed: {reason}", found.0, found.1, needed.0, needed.1)]
+    Shape {
+        /// Its name.
+        what: String,
+        /// Its shape.
+        found: (usize, usize),
+        /// The shape that fits.
+        needed: (usize, usize),
+        /// Why that shape is needed.
+        reason: &'static str,
+    },
+    /// A given number that is infinite or not a number.
+    #[error("{what} has an entry that is not a finite number")]
+    NotFinite {
+        /// The name of its matrix or vector.
+        what: String,
+    },
+    /// A signal that has no finite value at some time.
+    #[error("{signal} {} is not a finite number at t = {time}", index + 1)]
+    Signal {
+        /// Which vector of signals.
+        signal: &'static str,
+        /// Which component, from zero.
+        index: usize,
+        /// Time of the evaluation.
+        time: f64,
+    },
+    /// A horizon that is no positive number.
+    #[error("the horizon is {found}, but a positive number of seconds (of steps in discrete time) is needed")]
+    Horizon {
+        /// What was given.
+        found: f64,
+    },
+    /// Too few or too many samples.
+    #[error("{found} samples, but between 2 and {most} are possible")]
+    Samples {
+        /// How many were asked for.
+        found: usize,
+        /// The limit.
+        most: usize,
+    },
+    /// Too many states.
+    #[error(
+        "plant and observers have {found} states together, but at most {most} are possible; simulate fewer observers at once"
+    )]
+    TooLarge {
+        /// States of plant and observers together.
+        found: usize,
+        /// The limit.
+        most: usize,
+    },
+    /// The descriptor system itself is malformed.
+    #[error(transparent)]
+    System(#[from] SystemError),
+    /// A decomposition failed.
+    #[error(transparent)]
+    Numerics(#[from] NumericsError),
+    /// The integrator failed.
+    #[error(transparent)]
+    Integration(#[from] IntegrationError),
+}
