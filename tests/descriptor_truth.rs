@@ -167,6 +167,22 @@ fn unobservable_modes_are_the_roots_of_the_reference_polynomial() {
     }
 }
 
+#[test]
+fn evidence_survives_the_way_to_a_worker_and_back() {
+    fn returned<T: serde::Serialize + serde::de::DeserializeOwned>(value: &T) -> T {
+        postcard::from_bytes(&postcard::to_stdvec(value).unwrap()).unwrap()
+    }
+    for Case { name, system, .. } in cases() {
+        let tolerance = Tolerance::default();
+        let found = impulse_observability(&system, &tolerance).unwrap();
+        assert_eq!(returned(&found), found, "{name}: impulse observability");
+        let found = r_detectability(&system, &tolerance).unwrap();
+        assert_eq!(returned(&found), found, "{name}: R-detectability");
+        let found = regularity(&system, &tolerance).unwrap();
+        assert_eq!(returned(&found), found, "{name}: regularity");
+    }
+}
+
 /// `(A - s E) v = 0` and `C v = 0`.
 fn assert_annihilates(
     name: &str,

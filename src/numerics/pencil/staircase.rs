@@ -126,7 +126,8 @@ fn blocks(steps: &[Step]) -> (Vec<usize>, Vec<usize>) {
 
 /// Counts singular values above the threshold and keeps track of the smallest ratio to it.
 fn count_above(singular_values: &[f64], threshold: f64, gap: &mut f64) -> usize {
-    for &s in singular_values {
+    for s in singular_values.iter().map(|s| s.abs()) {
+        // a zero may come with a minus sign
         *gap = gap.min(if s > threshold { s / threshold } else { threshold / s });
     }
     singular_values.iter().filter(|s| **s > threshold).count()

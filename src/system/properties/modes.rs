@@ -244,6 +244,20 @@ mod tests {
     }
 
     #[test]
+    fn an_output_share_near_the_threshold_is_fragile() {
+        let observability = |share: f64| {
+            let mut system = hidden(-1.0);
+            system.C = dmatrix![share, 1.0];
+            r_observability(&system, &Tolerance::default()).unwrap()
+        };
+        let found = observability(1e-3);
+        assert!(found.holds() && !found.fragile(), "a thousandth is data: {found:?}");
+        assert!(observability(1e-8).fragile() && observability(1e-10).fragile(), "close to 1e-9");
+        let found = observability(1e-15);
+        assert!(!found.holds() && !found.fragile(), "that is noise: {found:?}");
+    }
+
+    #[test]
     fn a_faint_output_still_counts() {
         let mut system = hidden(2.0);
         for gain in [1e-200, 1e-12, 1e12, 1e200] {
