@@ -44,8 +44,11 @@ struct Case {
     poles: Vec<(f64, f64)>,
 }
 
+type ObserverProblem = (String, DMatrix<f64>, DMatrix<f64>, Vec<Complex64>);
+
 /// The control problems (A, B) as observer problems (A', B').
-fn published_cases() -> Vec<(String, DMatrix<f64>, DMatrix<f64>, Vec<Complex64>)> {
+#[expect(clippy::unwrap_used, reason = "the file is part of the repository")]
+fn published_cases() -> Vec<ObserverProblem> {
     let cases: Vec<Case> = serde_json::from_str(include_str!("reference/pole_placement.json")).unwrap();
     let transposed = |rows: &[Vec<f64>]| DMatrix::from_fn(rows[0].len(), rows.len(), |i, j| rows[j][i]);
     let poles = |case: &Case| case.poles.iter().map(|&(re, im)| Complex64::new(re, im)).collect();
