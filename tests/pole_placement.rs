@@ -44,8 +44,11 @@ struct Case {
     poles: Vec<(f64, f64)>,
 }
 
+type ObserverProblem = (String, DMatrix<f64>, DMatrix<f64>, Vec<Complex64>);
+
 /// The control problems (A, B) as observer problems (A', B').
-fn published_cases() -> Vec<(String, DMatrix<f64>, DMatrix<f64>, Vec<Complex64>)> {
+#[expect(clippy::unwrap_used, reason = "the file is part of the repository")]
+fn published_cases() -> Vec<ObserverProblem> {
     let cases: Vec<Case> = serde_json::from_str(include_str!("reference/pole_placement.json")).unwrap();
     let transposed = |rows: &[Vec<f64>]| DMatrix::from_fn(rows[0].len(), rows.len(), |i, j| rows[j][i]);
     let poles = |case: &Case| case.poles.iter().map(|&(re, im)| Complex64::new(re, im)).collect();
@@ -196,10 +199,11 @@ proptest! {
         let poles = spread_poles(&mut random, seen);
         let found = place(&a, &c, &poles).unwrap();
         prop_assert!(spectral_distance(&found.fixed_modes, &fixed) < 1e-6, "{:?} and {:?}", found.fixed_modes, fixed);
-        prop_assert!(found.relative_error.unwrap() < 1e-5, "{:?}", found);
+        let allowed = 1e-8_f64.max(1e-11 * found.condition);
+        prop_assert!(found.relative_error.unwrap() < allowed, "{:?}", found);
         let all: Vec<Complex64> = poles.iter().chain(&fixed).copied().collect();
         let spectrum = eigenvalues(&(&a - &found.gain * &c)).unwrap();
-        prop_assert!(spectral_distance(&spectrum, &all) < 1e-4, "{:?} and {:?}", spectrum, all);
+        prop_assert!(spectral_distance(&spectrum, &all) < 10.0 * allowed * largest(&all), "{:?} and {:?}", spectrum, all);
 
         let error = place(&a, &c, &spread_poles(&mut random, n)).unwrap_err();
         prop_assert!(
@@ -284,6 +288,11 @@ fn wrong_lists_are_refused_with_what_is_needed() {
     let (a, c) = (dmatrix![0.0, 1.0; 0.0, 0.0], dmatrix![1.0, 0.0]);
     let count = place(&a, &c, &real(&[-1.0])).unwrap_err();
     assert!(matches!(count, PlacementError::PoleCount { found: 1, needed: 2, .. }), "{count}");
+    let hidden =
+        place(&dmatrix![-1.0, 0.0; 0.0, -2.0], &dmatrix![1.0, 0.0], &real(&[-3.0, -4.0])).unwrap_err();
+    let message = "the list of poles has 2 entries, 1 needed: one for each of 2 modes except those that the outputs do not see \
+                   (-2.0000)";
+    assert_eq!(hidden.to_string(), message, "the message says which mode cannot be placed");
     let lone = [Complex64::new(-1.0, 1.0), Complex64::from(-1.0)];
     let lone = place(&a, &c, &lone).unwrap_err();
     assert!(matches!(lone, PlacementError::Numerics(NumericsError::NotConjugate { .. })), "{lone}");

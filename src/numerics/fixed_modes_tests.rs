@@ -86,6 +86,19 @@ fn half_of_a_jordan_block_can_be_observable() {
 }
 
 #[test]
+fn hidden_pair_close_to_the_real_axis_is_found() {
+    let mut random = Random::new(8);
+    for frequency in [1e-3, 1e-5, 1e-7, 0.0] {
+        let hidden = dmatrix![-1.0, frequency; -frequency, -1.0];
+        let (a, c) = planted(&mut random, &hidden, 3, 2);
+        let found = observable_quotient(&a, &c, &Tolerance::default()).unwrap();
+        assert_eq!(found.unobservable.ncols(), 2, "frequency {frequency:e}: {:?}", found.modes);
+        let total: usize = found.modes.iter().map(|m| m.multiplicity).sum();
+        assert_eq!(total, 5, "frequency {frequency:e}: every state counts once: {:?}", found.modes);
+    }
+}
+
+#[test]
 fn without_outputs_every_mode_is_fixed() {
     let a = dmatrix![0.0, 1.0; -1.0, 0.0];
     for c in [DMatrix::zeros(0, 2), DMatrix::zeros(1, 2)] {

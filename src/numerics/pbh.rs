@@ -31,36 +31,58 @@ pub(super) fn tests(
     let reach = CLUSTER_TOLERANCE * a.norm() / (n.max(1) as f64).sqrt();
     let mut result = Vec::new();
     for cluster in clusters(spectrum, reach) {
-        let mean = cluster.iter().sum::<Complex64>() / cluster.len() as f64;
-        let spread = cluster.iter().map(|z| (z - mean).norm()).fold(0.0, f64::max);
-        // a cluster that meets the real axis is closed under conjugation: its mean is real
-        let real = mean.im.abs() <= spread + f64::EPSILON * scale;
-        if !real && mean.im < 0.0 {
-            continue;
-        }
-        let mean = if real { Complex64::from(mean.re) } else { mean };
-        let candidates = if cluster.len() == 1 { vec![mean] } else { [&[mean], &cluster[..]].concat() };
-        let mut best = least_seen(a, c, mean)?;
-        for &candidate in candidates.iter().filter(|z| !real || z.im == 0.0).skip(1) {
-            best = best.better(least_seen(a, c, candidate)?);
-        }
-        best = refined(a, c, best, mean, 10.0 * spread + 1e-8 * scale)?;
         let limit = tolerance.mode * scale;
+        let Some((best, multiplicity)) = least_seen_of(a, c, &cluster, scale, limit)? else { continue };
         let nullity = best.singular_values.iter().filter(|s| **s <= limit).count();
-        let distance = best.smallest() / scale.max(f64::MIN_POSITIVE);
-        let unobservable = nullity > 0;
-        let direction = normalised(best.v.column(n - 1).iter().copied());
         let mode = PbhMode {
             value: best.at,
-            multiplicity: cluster.len(),
-            distance,
+            multiplicity,
+            distance: best.smallest() / scale.max(f64::MIN_POSITIVE),
             nullity,
-            unobservable,
-            direction,
+            unobservable: nullity > 0,
+            direction: normalised(best.v.column(n - 1).iter().copied()),
         };
         result.push(Test { mode, null: best.v.columns(n - nullity, nullity).into_owned() });
     }
     Ok(result)
+}
+
+/// The point of a cluster where `[lambda I - A; C]` is closest to losing rank, and how many eigenvalues it stands for;
+/// `None` for a cluster in the lower half plane, which its mirror image represents.
+fn least_seen_of(
+    a: &DMatrix<f64>,
+    c: &DMatrix<f64>,
+    cluster: &[Complex64],
+    scale: f64,
+    limit: f64,
+) -> Result<Option<(LeastSeen, usize)>, NumericsError> {
+    let mean = cluster.iter().sum::<Complex64>() / cluster.len() as f64;
+    let spread = cluster.iter().map(|z| (z - mean).norm()).fold(0.0, f64::max);
+    // a cluster that meets the real axis is closed under conjugation: its mean is real
+    let real = mean.im.abs() <= spread + f64::EPSILON * scale;
+    if !real && mean.im < 0.0 {
+        return Ok(None);
+    }
+    let mean = if real { Complex64::from(mean.re) } else { mean };
+    let mut best = least_seen(a, c, mean)?;
+    // a simple eigenvalue is where it was computed; those of a cluster are known to fewer digits
+    if cluster.len() == 1 {
+        return Ok(Some((best, 1)));
+    }
+    for &member in cluster.iter().filter(|z| !real || z.im == 0.0) {
+        best = best.better(least_seen(a, c, member)?);
+    }
+    best = refined(a, c, best, mean, 10.0 * spread + 1e-8 * scale)?;
+    if real && best.smallest() > limit {
+        // nothing on the axis itself: a hidden pair close to it?
+        for &member in cluster.iter().filter(|z| z.im > 0.0) {
+            let pair = least_seen(a, c, member)?;
+            if pair.smallest() <= limit {
+                return Ok(Some((pair, cluster.len() / 2)));
+            }
+        }
+    }
+    Ok(Some((best, cluster.len())))
 }
 
 /// Groups eigenvalues that are linked by steps shorter than the reach.

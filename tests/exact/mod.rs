@@ -1,10 +1,12 @@
 //! Exact arithmetic on binary floating-point numbers: every finite `f64` is an integer over a power of two.
 
+#![expect(clippy::unwrap_used, reason = "a judge that meets a doubtful number must stop")]
+
 use descry::numerics::Complex64;
 use nalgebra::DMatrix;
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{One as _, Signed as _, ToPrimitive as _, Zero as _};
 
 /// Multiplicity of a pole in the wished list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,7 +67,7 @@ fn closed_loop(a: &DMatrix<f64>, gain: &DMatrix<f64>, c: &DMatrix<f64>) -> Vec<V
     (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
 }
 
-/// Coefficients of `det(s I - M)`, leading one first, by Faddeev and LeVerrier: all divisions are exact.
+/// Coefficients of `det(s I - M)`, leading one first, by the Faddeev-Leverrier recursion: all divisions are exact.
 fn characteristic_polynomial(m: &[Vec<BigInt>]) -> Vec<BigInt> {
     let n = m.len();
     let mut coefficients = vec![BigInt::one()];

@@ -203,3 +203,40 @@ fn write(x: &mut DMatrix<f64>, slot: &Slot, weights: &DVector<Complex64>) -> Opt
     }
     Some(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::dmatrix;
+
+    fn example() -> (DMatrix<f64>, DMatrix<f64>, Vec<PoleOrPair>) {
+        let a = dmatrix![0.0, 1.0, 0.0, 0.3; 0.0, 0.2, 1.0, 0.0; -0.5, 0.0, 0.0, 1.0; 0.1, 0.0, 0.4, 0.0];
+        let c = dmatrix![1.0, 0.0, 0.0, 0.0; 0.0, 0.0, 0.6, 0.8];
+        (
+            a,
+            c,
+            vec![PoleOrPair::Real(-1.0), PoleOrPair::Pair(Complex64::new(-2.0, 1.5)), PoleOrPair::Real(-3.0)],
+        )
+    }
+
+    #[test]
+    fn eigenvectors_belong_to_the_closed_loop() {
+        let (a, c, poles) = example();
+        let found = place(&a, &c, &poles, &PlacementOptions::default()).unwrap();
+        let closed = (&a - &found.gain * &c).transpose();
+        let residual = (closed * &found.x - scaled_by_poles(&found.x, &poles)).norm();
+        assert!(residual < 1e-12, "(A - L C)' X = X Lambda: {residual:e}");
+        assert!((found.x.norm() - 2.0).abs() < 1e-12, "four columns of unit size");
+    }
+
+    #[test]
+    fn sweeps_make_the_eigenvectors_more_independent() {
+        let (a, c, poles) = example();
+        let size = |starts, sweeps| {
+            let options = PlacementOptions { seed: 3, starts, sweeps };
+            place(&a, &c, &poles, &options).unwrap().inverse.norm()
+        };
+        assert!(size(1, 10) < 0.9 * size(1, 0), "from {} to {}", size(1, 0), size(1, 10));
+        assert!(size(20, 10) <= 1.05 * size(1, 10), "more starts do not hurt");
+    }
+}

@@ -124,9 +124,8 @@ pub struct Placement {
 pub enum PlacementError {
     /// The number of poles is not the number of observable modes.
     #[error(
-        "{found} poles were given, {needed} are needed: of {states} modes, {} cannot be moved ({})",
-        fixed_modes.len(),
-        listed(fixed_modes)
+        "the list of poles has {found} entries, {needed} needed: one for each of {states} modes{}",
+        except(fixed_modes)
     )]
     PoleCount {
         /// How many were given.
@@ -159,9 +158,13 @@ pub enum PlacementError {
     Numerics(#[from] NumericsError),
 }
 
-fn listed(values: &[Complex64]) -> String {
-    if values.is_empty() {
-        return "none".to_owned();
+fn except(fixed_modes: &[Complex64]) -> String {
+    if fixed_modes.is_empty() {
+        return String::new();
     }
-    values.iter().map(|z| format!("{z:.4}")).collect::<Vec<_>>().join(", ")
+    let listed: Vec<String> = fixed_modes
+        .iter()
+        .map(|z| if z.im == 0.0 { format!("{:.4}", z.re) } else { format!("{z:.4}") })
+        .collect();
+    format!(" except those that the outputs do not see ({})", listed.join(", "))
 }
