@@ -1,6 +1,14 @@
 //! L1: what is observed: descriptor systems, their structure and their properties.
 
 mod descriptor;
+mod lipschitz;
+mod network;
+mod partition;
 pub mod properties;
+mod signal;
 
 pub use descriptor::{DescriptorSystem, SystemError, TimeDomain};
+pub use lipschitz::{LipschitzTerm, nonlinearity};
+pub use network::Network;
+pub use partition::{PartitionError, Subsystem, check_partition};
+pub use signal::Signal;
