@@ -3,12 +3,12 @@
 mod block;
 mod eigen;
 mod error;
-mod pencil;
 mod fixed_modes;
+pub mod integrate;
 mod pbh;
+mod pencil;
 mod placement;
 mod random;
-pub mod integrate;
 mod rank;
 mod spectrum;
 mod stability;

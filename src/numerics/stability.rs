@@ -26,6 +26,27 @@ pub enum ModePosition {
 }
 
 impl StabilityRegion {
+    /// The region of difference equations, or of differential ones.
+    pub fn of(discrete: bool) -> Self {
+        if discrete { Self::UnitDisk } else { Self::LeftHalfPlane }
+    }
+
+    /// How far `z` lies outside: `Re z`, or `|z| - 1`; negative inside.
+    pub fn excess(self, z: Complex64) -> f64 {
+        match self {
+            Self::LeftHalfPlane => z.re,
+            Self::UnitDisk => z.norm() - 1.0,
+        }
+    }
+
+    /// The region as a statement on eigenvalues.
+    pub fn statement(self) -> &'static str {
+        match self {
+            Self::LeftHalfPlane => "Re s < 0 for every eigenvalue of the error dynamics",
+            Self::UnitDisk => "|z| < 1 for every eigenvalue of the error dynamics",
+        }
+    }
+
     /// Whether `z` lies inside by more than `margin`: `Re z < -margin`, or `|z| < 1 - margin`.
     pub fn contains(self, z: Complex64, margin: f64) -> bool {
         match self {

@@ -1,5 +1,30 @@
 //! L2: observers: existence conditions, designs, verification.
 
+mod choice;
+mod condition;
+mod design;
+pub mod proportional;
+pub mod proportional_integral;
 mod realization;
+mod verify;
 
+pub use choice::{Assessment, Method, Order, PoleDesign, assess, conditions};
+pub use condition::{Condition, Evidence, Formula, FormulaPart, PointEvidence, Verdict, Witness};
+pub use design::{Claim, Design, DesignError, NamedMatrix, chosen_poles};
 pub use realization::LinearObserver;
+pub use verify::{Check, Response, Verification, unknown_input_response, verify};
+
+use crate::numerics::Complex64;
+
+/// A complex number as people write it: `-2`, `-1+3i`, four significant digits.
+pub fn show(z: Complex64) -> String {
+    let digits = |x: f64| {
+        let text = format!("{x:.3e}");
+        let value: f64 = text.parse().unwrap_or(x);
+        if value != 0.0 && !(1e-4..1e6).contains(&value.abs()) { text } else { format!("{value}") }
+    };
+    if z.im.abs() <= 1e-9 * z.norm() {
+        return digits(z.re);
+    }
+    format!("{}{}{}i", digits(z.re), if z.im < 0.0 { "-" } else { "+" }, digits(z.im.abs()))
+}
