@@ -1,1 +1,76 @@
-//! L3: the papers as data.
+//! L3: the papers as data: citations, example documents, figure recipes, errata.
+
+mod compute;
+mod errata;
+mod figure;
+mod recipe;
+pub mod standard;
+
+pub use compute::{Problem, compute_figure};
+pub use errata::{Erratum, errata};
+pub use figure::{Axis, FigureSpec, Panel, Role, Series};
+pub use recipe::{
+    DesignPatch, FigureRecipe, PanelRecipe, Quantity, RunRecipe, ScenarioPatch, SeriesRecipe, Transfer,
+};
+
+/// An example that comes with the program, as the text of a document.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Example {
+    /// Key on the command line and in links.
+    pub key: &'static str,
+    /// Title in menus.
+    pub title: &'static str,
+    /// What it teaches, one sentence.
+    pub teaches: &'static str,
+    /// The document.
+    pub text: &'static str,
+}
+
+/// All examples, the first of which opens when nothing else is asked for.
+pub const EXAMPLES: [Example; 4] = [
+    Example {
+        key: "proportional-integral",
+        title: "Koenig and Mammar: unknown input by an integral loop",
+        teaches: "Nine figures of the paper: how fast poles catch an unknown input, and what that costs.",
+        text: include_str!("../../assets/examples/proportional-integral.json"),
+    },
+    Example {
+        key: "unseen-impulse",
+        title: "An impulse that no sensor sees",
+        teaches: "Condition (9) fails; the witness names the state, and one more sensor mends it.",
+        text: include_str!("../../assets/examples/unseen-impulse.json"),
+    },
+    Example {
+        key: "input-in-constraint",
+        title: "An unknown input in an algebraic equation",
+        teaches: "Condition (8) fails, so the paper's observer does not exist; the general form does.",
+        text: include_str!("../../assets/examples/input-in-constraint.json"),
+    },
+    Example {
+        key: "discrete",
+        title: "A sampled machine with a load step",
+        teaches: "The same observer in discrete time: deadbeat poles, and a step that is learnt in a few samples.",
+        text: include_str!("../../assets/examples/discrete.json"),
+    },
+];
+
+/// The example with that key.
+pub fn example(key: &str) -> Option<&'static Example> {
+    EXAMPLES.iter().find(|example| example.key == key)
+}
+
+/// A paper that the program implements.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Paper {
+    /// Number used in documents and identifiers.
+    pub key: &'static str,
+    /// Citation.
+    pub citation: &'static str,
+}
+
+/// The papers that are implemented.
+pub const PAPERS: [Paper; 1] = [Paper {
+    key: "004",
+    citation: "D. Koenig and S. Mammar, \"Design of proportional-integral observer for unknown input descriptor \
+               systems\", IEEE Transactions on Automatic Control 47 (2002) 2057-2062",
+}];

@@ -1,0 +1,145 @@
+//! The standard views of any design: states, errors, unknown input, Bode.
+
+use super::compute::{bode_curve, frequency, role_of, samples, time_label, transfer_at};
+use super::figure::{Axis, FigureSpec, Panel, Role, Series};
+use super::recipe::{Quantity, Transfer};
+use crate::observer::{Design, LinearObserver};
+use crate::simulation::Trajectory;
+use crate::system::{DescriptorSystem, TimeDomain};
+
+/// True and estimated states, one panel each.
+pub fn states(trajectory: &Trajectory, time: TimeDomain) -> FigureSpec {
+    let panel =
+        |i| panel(trajectory, time, &format!("x{}", i + 1), &[(Quantity::State, i), (Quantity::Estimate, i)]);
+    figure(
+        "states",
+        "States",
+        "True states (solid) and estimates (dashed).",
+        (0..trajectory.x.nrows()).map(panel),
+    )
+}
+
+/// Estimation errors in one panel, and the error of the unknown input in another.
+pub fn errors(trajectory: &Trajectory, time: TimeDomain) -> FigureSpec {
+    let of = |quantity, count: usize| (0..count).map(move |i| (quantity, i)).collect::<Vec<_>>();
+    let mut panels =
+        vec![panel(trajectory, time, "e = x - x_hat", &of(Quantity::Error, trajectory.x.nrows()))];
+    let estimated = trajectory.observers.first().map_or(0, |o| o.d_hat.nrows());
+    if estimated > 0 {
+        panels.push(panel(trajectory, time, "d - d_hat", &of(Quantity::UnknownInputError, estimated)));
+    }
+    figure("errors", "Errors", "Estimation errors.", panels.into_iter())
+}
+
+/// Unknown inputs with their estimates, known inputs and outputs.
+pub fn unknown_inputs(trajectory: &Trajectory, time: TimeDomain) -> FigureSpec {
+    let unknown = (0..trajectory.d.nrows()).map(|i| {
+        panel(
+            trajectory,
+            time,
+            &format!("d{}", i + 1),
+            &[(Quantity::UnknownInput, i), (Quantity::UnknownInputEstimate, i)],
+        )
+    });
+    let all = |quantity, count: usize| (0..count).map(move |i| (quantity, i)).collect::<Vec<_>>();
+    let inputs = (trajectory.u.nrows() > 0)
+        .then(|| panel(trajectory, time, "known inputs", &all(Quantity::Input, trajectory.u.nrows())));
+    let outputs = (trajectory.y.nrows() > 0)
+        .then(|| panel(trajectory, time, "measured outputs", &all(Quantity::Output, trajectory.y.nrows())));
+    figure(
+        "unknown-input",
+        "Unknown input",
+        "Unknown inputs (solid) with their estimates (dashed); known inputs and measured outputs.",
+        unknown.chain(inputs).chain(outputs),
+    )
+}
+
+/// Bode diagrams of the joint system: `d -> d_hat` and `d -> e`, for the first unknown input.
+pub fn bode(system: &DescriptorSystem, design: &Design) -> Option<FigureSpec> {
+    if system.n_unknown_inputs() == 0 {
+        return None;
+    }
+    let range = bode_range(&design.observer, system.time);
+    let curve = |transfer, to: usize| {
+        bode_curve(range, |omega| {
+            transfer_at(system, &design.observer, transfer, (0, to), frequency(system.time, omega))
+        })
+    };
+    let mut magnitudes = Vec::new();
+    let mut phases = Vec::new();
+    let mut add = |name: String, role, colour, [magnitude, phase]: [Vec<[f64; 2]>; 2]| {
+        if !magnitude.is_empty() {
+            magnitudes.push(Series { name: name.clone(), role, colour, points: magnitude });
+            phases.push(Series { name, role, colour, points: phase });
+        }
+    };
+    if design.observer.n_estimated_inputs() > 0 {
+        add("d1 to d1_hat".to_owned(), Role::Response, 7, curve(Transfer::UnknownInput, 0));
+    }
+    for i in 0..system.n_states().min(MOST_CURVES) {
+        add(format!("d1 to e{}", i + 1), Role::Error, i, curve(Transfer::UnknownInputToError, i));
+    }
+    if magnitudes.is_empty() {
+        return None;
+    }
+    let x = Axis { label: "frequency (rad/s)".to_owned(), logarithmic: true, range: Some(range) };
+    let panel = |title: &str, label: &str, series| Panel {
+        title: title.to_owned(),
+        x: x.clone(),
+        y: Axis { label: label.to_owned(), ..Axis::default() },
+        series,
+    };
+    let caption = "From the unknown input to its estimate and to the errors, plant and observer together.";
+    let panels = [panel("", "magnitude (dB)", magnitudes), panel("", "phase (degrees)", phases)];
+    Some(figure("bode", "Bode", caption, panels.into_iter()))
+}
+
+/// Error curves in one Bode diagram; more would not be told apart.
+const MOST_CURVES: usize = 6;
+
+/// Two decades around the observer's own speed, a whole number of decades.
+fn bode_range(observer: &LinearObserver, time: TimeDomain) -> [f64; 2] {
+    if time == TimeDomain::Discrete {
+        return [1e-3, std::f64::consts::PI];
+    }
+    let speed = observer.N.norm().max(1e-3) / (observer.order().max(1) as f64).sqrt();
+    let decade = speed.log10().round();
+    [10_f64.powf(decade - 4.0), 10_f64.powf(decade + 2.0)]
+}
+
+fn figure(id: &str, title: &str, caption: &str, panels: impl Iterator<Item = Panel>) -> FigureSpec {
+    FigureSpec {
+        id: id.to_owned(),
+        title: title.to_owned(),
+        caption: caption.to_owned(),
+        columns: 2,
+        panels: panels.collect(),
+        ..FigureSpec::default()
+    }
+}
+
+fn panel(trajectory: &Trajectory, time: TimeDomain, title: &str, show: &[(Quantity, usize)]) -> Panel {
+    let series = show.iter().filter_map(|&(quantity, index)| {
+        let points = samples(trajectory, 0, quantity, index);
+        (!points.is_empty()).then(|| Series {
+            name: quantity.name(index),
+            role: role_of(quantity),
+            colour: colour(quantity, index),
+            points,
+        })
+    });
+    Panel {
+        title: title.to_owned(),
+        x: Axis { label: time_label(time), ..Axis::default() },
+        y: Axis::default(),
+        series: series.collect(),
+    }
+}
+
+/// The same colour for a state, its estimate and its error; unknown inputs have their own.
+fn colour(quantity: Quantity, index: usize) -> usize {
+    match quantity {
+        Quantity::State | Quantity::Estimate | Quantity::Error | Quantity::Output | Quantity::Input => index,
+        Quantity::UnknownInput | Quantity::UnknownInputEstimate | Quantity::UnknownInputError => 7 + index,
+    }
+}
