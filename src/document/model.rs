@@ -1,0 +1,287 @@
+//! A document: everything that a person edits, saves and shares.
+#![expect(non_snake_case, reason = "matrix letters of the canonical form")]
+
+use super::entry::{Entry, EntryMatrix};
+use crate::numerics::Tolerance;
+use crate::observer::PoleDesign;
+use crate::paper::FigureRecipe;
+use crate::simulation::Scenario;
+use crate::system::{
+    DescriptorSystem, LipschitzTerm, Network, Signal, Subsystem, SystemError, TimeDomain, nonlinearity,
+};
+
+/// A problem as a person wrote it: system, design choice, scenario and figures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Document {
+    /// Title.
+    pub title: String,
+    /// Notes of the author, free text.
+    pub notes: String,
+    /// The paper whose example this is, for example `004`; empty for own work.
+    pub paper: String,
+    /// The system.
+    pub plant: PlantData,
+    /// The chosen design.
+    pub design: PoleDesign,
+    /// What happens in the simulation.
+    pub scenario: ScenarioData,
+    /// Thresholds.
+    pub tolerance: Tolerance,
+    /// Figures that can be drawn from it.
+    pub figures: Vec<FigureRecipe>,
+}
+
+/// The two ways to give a system.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PlantData {
+    /// Matrices of one descriptor system, perhaps partitioned, perhaps with a Lipschitz term.
+    Descriptor(DescriptorData),
+    /// Identical subsystems and their coupling.
+    Network(NetworkData),
+}
+
+/// Matrices of a descriptor system as typed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DescriptorData {
+    /// Differential or difference equations.
+    pub time: TimeDomain,
+    /// The matrices E, A, B, C, D, F in the order of [`Matrix`].
+    pub matrices: [EntryMatrix; 6],
+    /// Interconnected subsystems; empty when the system is not partitioned.
+    pub partition: Vec<Subsystem>,
+    /// Lipschitz term.
+    pub lipschitz: Option<LipschitzData>,
+}
+
+/// The matrices of a descriptor system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Matrix {
+    /// Matrix of the derivatives.
+    E,
+    /// State matrix.
+    A,
+    /// Known inputs.
+    B,
+    /// Outputs.
+    C,
+    /// Unknown inputs.
+    D,
+    /// Feedthrough of unknown inputs.
+    F,
+}
+
+impl Matrix {
+    /// All, in the order of reading.
+    pub const ALL: [Self; 6] = [Self::E, Self::A, Self::B, Self::C, Self::D, Self::F];
+
+    /// The letter.
+    pub fn letter(self) -> &'static str {
+        match self {
+            Self::E => "E",
+            Self::A => "A",
+            Self::B => "B",
+            Self::C => "C",
+            Self::D => "D",
+            Self::F => "F",
+        }
+    }
+
+    /// What it is, in words.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::E => "derivatives",
+            Self::A => "states",
+            Self::B => "known inputs",
+            Self::C => "outputs",
+            Self::D => "unknown inputs",
+            Self::F => "unknown inputs in the outputs",
+        }
+    }
+}
+
+/// A Lipschitz term as typed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LipschitzData {
+    /// Distribution of the nonlinearity.
+    pub G: EntryMatrix,
+    /// The states that it depends on.
+    pub F_L: EntryMatrix,
+    /// Its components, expressions in `x1 ... xn` and `t`.
+    pub f: Vec<String>,
+    /// The Lipschitz constant.
+    pub constant: f64,
+}
+
+/// A network as typed; the matrices in the order a, b, c, `c_G`, `c_L`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NetworkData {
+    /// State matrix of a subsystem.
+    pub a: EntryMatrix,
+    /// Coupling input of a subsystem.
+    pub b: EntryMatrix,
+    /// Coupling output of a subsystem.
+    pub c: EntryMatrix,
+    /// Globally measured part of a subsystem.
+    pub c_G: EntryMatrix,
+    /// Locally measured part of a subsystem.
+    pub c_L: EntryMatrix,
+    /// Coupling between subsystems.
+    pub Gamma: Coupling,
+    /// Globally measured combinations.
+    pub Psi: Coupling,
+    /// Subsystems with local measurements, from one.
+    pub local: Vec<usize>,
+}
+
+/// A matrix that may be large and sparse.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Coupling {
+    /// Rows of entries.
+    Dense(EntryMatrix),
+    /// `(row, column, value)`, from one.
+    Sparse {
+        /// Rows.
+        rows: usize,
+        /// Columns.
+        columns: usize,
+        /// Entries that are not zero.
+        entries: Vec<(usize, usize, f64)>,
+    },
+}
+
+impl Coupling {
+    /// Rows and columns.
+    pub fn shape(&self) -> (usize, usize) {
+        match self {
+            Self::Dense(matrix) => matrix.shape(),
+            Self::Sparse { rows, columns, .. } => (*rows, *columns),
+        }
+    }
+
+    /// The values.
+    pub fn values(&self) -> nalgebra::DMatrix<f64> {
+        match self {
+            Self::Dense(matrix) => matrix.values(),
+            Self::Sparse { rows, columns, entries } => {
+                let mut matrix = nalgebra::DMatrix::zeros(*rows, *columns);
+                for &(i, j, value) in entries {
+                    matrix[(i - 1, j - 1)] = value;
+                }
+                matrix
+            }
+        }
+    }
+}
+
+/// A scenario as typed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScenarioData {
+    /// Horizon in seconds or steps.
+    pub horizon: f64,
+    /// Output samples.
+    pub samples: usize,
+    /// Initial state; the algebraic part is projected.
+    pub x0: Vec<Entry>,
+    /// Known inputs.
+    pub u: Vec<Signal>,
+    /// Unknown inputs.
+    pub d: Vec<Signal>,
+    /// Measurement noise, one signal per output.
+    pub noise: Vec<Signal>,
+    /// Time-varying uncertainty of `A`.
+    pub uncertainty: Option<UncertaintyData>,
+}
+
+/// `a_ij(t) = a_ij (1 + scale * amplitude_ij * sin(2 pi frequency_ij t))`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UncertaintyData {
+    /// Relative amplitudes, e x n.
+    pub amplitude: EntryMatrix,
+    /// Frequencies in Hz, e x n.
+    pub frequency: EntryMatrix,
+    /// Factor on all amplitudes.
+    pub scale: f64,
+}
+
+impl DescriptorData {
+    /// A matrix as typed.
+    pub fn matrix(&self, matrix: Matrix) -> &EntryMatrix {
+        &self.matrices[matrix as usize]
+    }
+
+    /// A matrix as typed, to change it.
+    pub fn matrix_mut(&mut self, matrix: Matrix) -> &mut EntryMatrix {
+        &mut self.matrices[matrix as usize]
+    }
+
+    /// The checked system.
+    ///
+    /// # Errors
+    /// The first matrix that does not fit.
+    pub fn system(&self) -> Result<DescriptorSystem, SystemError> {
+        let [E, A, B, C, D, F] = self.matrices.each_ref().map(EntryMatrix::values);
+        DescriptorSystem { time: self.time, E, A, B, C, D, F }.checked()
+    }
+}
+
+impl LipschitzData {
+    /// The term; `None` when a component is not understood (reading a document checks that).
+    pub fn term(&self, n_states: usize) -> Option<LipschitzTerm> {
+        let f = self.f.iter().map(|text| nonlinearity(text, n_states).ok()).collect::<Option<Vec<_>>>()?;
+        Some(LipschitzTerm { G: self.G.values(), F_L: self.F_L.values(), f, constant: self.constant })
+    }
+}
+
+impl NetworkData {
+    /// The checked network.
+    ///
+    /// # Errors
+    /// The first matrix that does not fit.
+    pub fn network(&self) -> Result<Network, SystemError> {
+        Network {
+            a: self.a.values(),
+            b: self.b.values(),
+            c: self.c.values(),
+            Gamma: self.Gamma.values(),
+            Psi: self.Psi.values(),
+            c_G: self.c_G.values(),
+            c_L: self.c_L.values(),
+            local: self.local.iter().map(|i| i - 1).collect(),
+        }
+        .checked()
+    }
+}
+
+impl Document {
+    /// The system as one descriptor system.
+    ///
+    /// # Errors
+    /// The first matrix that does not fit.
+    pub fn system(&self) -> Result<DescriptorSystem, SystemError> {
+        match &self.plant {
+            PlantData::Descriptor(data) => data.system(),
+            PlantData::Network(data) => Ok(data.network()?.expanded()),
+        }
+    }
+
+    /// The scenario with missing signals and initial states filled by zeros.
+    pub fn scenario(&self, system: &DescriptorSystem) -> Scenario {
+        let ScenarioData { horizon, samples, x0, u, d, noise, uncertainty } = &self.scenario;
+        let mut x0: Vec<f64> = x0.iter().map(|entry| entry.value).collect();
+        x0.resize(system.n_states(), 0.0);
+        let uncertainty = uncertainty.as_ref().map(|data| crate::simulation::Uncertainty {
+            amplitude: data.amplitude.values(),
+            frequency: data.frequency.values(),
+            scale: data.scale,
+        });
+        Scenario {
+            horizon: *horizon,
+            samples: *samples,
+            x0: nalgebra::DVector::from_vec(x0),
+            u: u.clone(),
+            d: d.clone(),
+            noise: noise.clone(),
+            uncertainty,
+        }
+    }
+}

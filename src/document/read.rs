@@ -1,0 +1,382 @@
+//! Reading a document: every key known, every shape checked, every error with its place.
+#![expect(non_snake_case, reason = "keys are matrix letters")]
+
+use super::cursor::{Cursor, Object, parse};
+use super::entry::{Entry, EntryMatrix};
+use super::limits::{MAX_HORIZON, MAX_POLES, MAX_SAMPLES, MAX_SIDE, MAX_SPARSE_ENTRIES, MAX_SUBSYSTEMS};
+use super::model::{
+    Coupling, DescriptorData, Document, LipschitzData, NetworkData, PlantData, ScenarioData, UncertaintyData,
+};
+use super::{DocumentError, VERSION, read_figures};
+use crate::numerics::{Complex64, Tolerance};
+use crate::observer::{Method, Order, PoleDesign};
+use crate::system::{
+    DescriptorSystem, Signal, Subsystem, SystemError, TimeDomain, check_partition, nonlinearity,
+};
+
+/// Reads a document of format version 1.
+///
+/// # Errors
+/// What stands where, and what is needed there; see [`DocumentError`].
+pub fn read_document(text: &str) -> Result<Document, DocumentError> {
+    let value = parse(text)?;
+    let root = Cursor::root(&value).object(&[
+        "descry",
+        "title",
+        "notes",
+        "paper",
+        "system",
+        "design",
+        "scenario",
+        "tolerance",
+        "figures",
+    ])?;
+    let version = root.need("descry", "the version of the format is needed: \"descry\": 1")?;
+    if version.whole_in(0, u64::MAX).is_ok_and(|found| found > VERSION) {
+        return Err(version.error(format!("this program reads version {VERSION}; a newer one is needed")));
+    }
+    version.whole_in(VERSION, VERSION)?;
+    let text = |key| root.get(key).map_or(Ok(String::new()), |cursor| cursor.text().map(str::to_owned));
+    let plant = plant(&root.need("system", "the matrices of the system are needed")?)?;
+    let sizes = Sizes::of(&plant);
+    let design = root.get("design").map_or(Ok(PoleDesign::default()), |cursor| read_design(&cursor))?;
+    let scenario = match root.get("scenario") {
+        Some(cursor) => scenario(&cursor, &sizes)?,
+        None => ScenarioData::empty(),
+    };
+    let document = Document {
+        title: text("title")?,
+        notes: text("notes")?,
+        paper: text("paper")?,
+        plant,
+        design,
+        scenario,
+        tolerance: root.get("tolerance").map_or(Ok(Tolerance::default()), |cursor| tolerance(&cursor))?,
+        figures: root.get("figures").map_or(Ok(Vec::new()), |cursor| read_figures(&cursor, &sizes))?,
+    };
+    Ok(document)
+}
+
+impl ScenarioData {
+    /// Ten seconds of nothing.
+    pub fn empty() -> Self {
+        Self {
+            horizon: 10.0,
+            samples: 501,
+            x0: Vec::new(),
+            u: Vec::new(),
+            d: Vec::new(),
+            noise: Vec::new(),
+            uncertainty: None,
+        }
+    }
+}
+
+/// Sizes that signals and initial states must match.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sizes {
+    pub(super) states: usize,
+    pub(super) equations: usize,
+    pub(super) inputs: usize,
+    pub(super) unknown: usize,
+    pub(super) outputs: usize,
+}
+
+impl Sizes {
+    fn of(plant: &PlantData) -> Self {
+        match plant {
+            PlantData::Descriptor(data) => {
+                let [e, _, b, c, d, _] = data.matrices.each_ref().map(EntryMatrix::shape);
+                Self { states: e.1, equations: e.0, inputs: b.1, unknown: d.1, outputs: c.0 }
+            }
+            PlantData::Network(data) => {
+                let states = data.a.shape().0 * data.Gamma.shape().0;
+                let outputs = data.Psi.shape().0 * data.c_G.shape().0 + data.local.len() * data.c_L.shape().0;
+                Self { states, equations: states, inputs: 0, unknown: 0, outputs }
+            }
+        }
+    }
+}
+
+fn plant(cursor: &Cursor<'_>) -> Result<PlantData, DocumentError> {
+    let object =
+        cursor.object(&["time", "E", "A", "B", "C", "D", "F", "partition", "lipschitz", "network"])?;
+    if let Some(network) = object.get("network") {
+        for key in ["time", "E", "A", "B", "C", "D", "F", "partition", "lipschitz"] {
+            if let Some(other) = object.get(key) {
+                return Err(other.error("a system is either a network or matrices: remove one of them"));
+            }
+        }
+        return Ok(PlantData::Network(read_network(&network)?));
+    }
+    descriptor(&object).map(PlantData::Descriptor)
+}
+
+fn descriptor(object: &Object<'_>) -> Result<DescriptorData, DocumentError> {
+    let time = object.get("time").map_or(Ok(TimeDomain::Continuous), |cursor| {
+        cursor.word(&[("continuous", TimeDomain::Continuous), ("discrete", TimeDomain::Discrete)])
+    })?;
+    let E = EntryMatrix::read(
+        &object.need("E", "the matrix E is needed, a list of rows such as [[1, 0], [0, 0]]")?,
+    )?;
+    let A = EntryMatrix::read(&object.need("A", "the matrix A is needed, with the shape of E")?)?;
+    let (e, n) = E.shape();
+    let optional = |key, rows: usize, columns: usize| match object.get(key) {
+        // a matrix without rows cannot show its columns
+        Some(cursor) => EntryMatrix::read(&cursor)
+            .map(|m| if m.shape().0 == 0 { EntryMatrix::zeros(rows.min(m.shape().0), columns) } else { m }),
+        None => Ok(EntryMatrix::zeros(rows, columns)),
+    };
+    let C = optional("C", 0, n)?;
+    let (B, D) = (optional("B", e, 0)?, optional("D", e, 0)?);
+    let F = optional("F", C.shape().0, D.shape().1)?;
+    let mut data =
+        DescriptorData { time, matrices: [E, A, B, C, D, F], partition: Vec::new(), lipschitz: None };
+    let system = data.system().map_err(|error| at_matrix("system", &error))?;
+    if let Some(cursor) = object.get("partition") {
+        data.partition = partition(&cursor, &system)?;
+    }
+    data.lipschitz = object.get("lipschitz").map(|cursor| lipschitz(&cursor, &system)).transpose()?;
+    Ok(data)
+}
+
+/// A system error as an error at the matrix's place.
+fn at_matrix(place: &str, error: &SystemError) -> DocumentError {
+    match error {
+        SystemError::Shape { matrix, found, needed, reason } => DocumentError::at(
+            &format!("{place}.{matrix}"),
+            format!("a {} x {} matrix", found.0, found.1),
+            format!("{} x {} is needed: {reason}", needed.0, needed.1),
+        ),
+        SystemError::NotFinite { matrix, row, column } => DocumentError::at(
+            &format!("{place}.{matrix}[{}, {}]", row + 1, column + 1),
+            "a value that is not finite",
+            "a finite number is needed",
+        ),
+        SystemError::NoStates => DocumentError::at(place, "no states", error.to_string()),
+    }
+}
+
+fn partition(cursor: &Cursor<'_>, system: &DescriptorSystem) -> Result<Vec<Subsystem>, DocumentError> {
+    let mut subsystems = Vec::new();
+    for item in cursor.list(MAX_SUBSYSTEMS, "subsystems")? {
+        let object = item.object(&["name", "states", "equations", "outputs"])?;
+        let count = |key, or: Option<usize>| match (object.get(key), or) {
+            (Some(cursor), _) => {
+                cursor.whole_in(0, MAX_SIDE as u64).map(|n| usize::try_from(n).unwrap_or(usize::MAX))
+            }
+            (None, Some(or)) => Ok(or),
+            (None, None) => Err(item.error(format!("the number of {key} of this subsystem is needed"))),
+        };
+        let states = count("states", None)?;
+        let name = object.get("name").map_or(Ok(String::new()), |c| c.text().map(str::to_owned))?;
+        subsystems.push(Subsystem {
+            name,
+            states,
+            equations: count("equations", Some(states))?,
+            outputs: count("outputs", None)?,
+        });
+    }
+    check_partition(system, &subsystems).map_err(|error| {
+        DocumentError::at(cursor.path(), format!("{} subsystems", subsystems.len()), error.to_string())
+    })?;
+    Ok(subsystems)
+}
+
+fn lipschitz(cursor: &Cursor<'_>, system: &DescriptorSystem) -> Result<LipschitzData, DocumentError> {
+    let object = cursor.object(&["G", "F_L", "f", "constant"])?;
+    let (e, n) = (system.n_equations(), system.n_states());
+    let G = EntryMatrix::read(&object.need("G", "the distribution G of the nonlinearity is needed")?)?;
+    let F_L = EntryMatrix::read(&object.need("F_L", "the matrix F_L is needed: which states f depends on")?)?;
+    let components = object.need("f", "the nonlinearity f is needed, a list such as [\"sin(x2)\"]")?;
+    let components = components.list(MAX_SIDE, "expressions")?;
+    let mut f = Vec::new();
+    for component in &components {
+        let text = component.text()?;
+        nonlinearity(text, n)
+            .map_err(|error| component.error(format!("an expression in x1 ... x{n} and t: {error}")))?;
+        f.push(text.to_owned());
+    }
+    let checks = [
+        ("G", G.shape(), (e, f.len()), "a row for each equation and a column for each component of f"),
+        ("F_L", F_L.shape(), (F_L.shape().0, n), "a column for each state"),
+    ];
+    for (name, found, needed, reason) in checks {
+        if found != needed {
+            return Err(DocumentError::at(
+                &format!("{}.{name}", cursor.path()),
+                format!("a {} x {} matrix", found.0, found.1),
+                format!("{} x {} is needed: {reason}", needed.0, needed.1),
+            ));
+        }
+    }
+    let constant = object.need("constant", "the Lipschitz constant is needed")?.number_in(0.0, 1e6)?;
+    Ok(LipschitzData { G, F_L, f, constant })
+}
+
+fn read_network(cursor: &Cursor<'_>) -> Result<NetworkData, DocumentError> {
+    let object = cursor.object(&["a", "b", "c", "c_G", "c_L", "Gamma", "Psi", "local"])?;
+    let dense = |key| EntryMatrix::read(&object.need(key, "this matrix of the network is needed")?);
+    let coupling = |key| read_coupling(&object.need(key, "this matrix of the network is needed")?);
+    let mut data = NetworkData {
+        a: dense("a")?,
+        b: dense("b")?,
+        c: dense("c")?,
+        c_G: dense("c_G")?,
+        c_L: dense("c_L")?,
+        Gamma: coupling("Gamma")?,
+        Psi: coupling("Psi")?,
+        local: Vec::new(),
+    };
+    let big = data.Gamma.shape().0;
+    if let Some(local) = object.get("local") {
+        for item in local.list(MAX_SUBSYSTEMS, "subsystem numbers")? {
+            data.local.push(usize::try_from(item.whole_in(1, big as u64)?).unwrap_or(usize::MAX));
+        }
+    }
+    data.network().map_err(|error| at_matrix(cursor.path(), &error))?;
+    Ok(data)
+}
+
+fn read_coupling(cursor: &Cursor<'_>) -> Result<Coupling, DocumentError> {
+    if cursor.is_list() {
+        return EntryMatrix::read(cursor).map(Coupling::Dense);
+    }
+    let object = cursor.object(&["rows", "columns", "entries"])?;
+    let side = |key| -> Result<u64, DocumentError> {
+        object.need(key, "rows, columns and entries are needed")?.whole_in(1, MAX_SUBSYSTEMS as u64)
+    };
+    let (rows, columns) = (side("rows")?, side("columns")?);
+    let list = object.need("entries", "a list of [row, column, value] is needed")?;
+    let mut entries = Vec::new();
+    for item in list.list(MAX_SPARSE_ENTRIES, "entries")? {
+        let parts = item.list(3, "numbers")?;
+        let [row, column, value] = parts.as_slice() else {
+            return Err(item.error("three numbers are needed: [row, column, value]"));
+        };
+        let index = |cursor: &Cursor<'_>, limit| {
+            cursor.whole_in(1, limit).map(|i| usize::try_from(i).unwrap_or(usize::MAX))
+        };
+        entries.push((index(row, rows)?, index(column, columns)?, value.number()?));
+    }
+    let size = |n| usize::try_from(n).unwrap_or(usize::MAX);
+    Ok(Coupling::Sparse { rows: size(rows), columns: size(columns), entries })
+}
+
+/// Words of the design methods.
+pub(super) fn method_words() -> Vec<(&'static str, Method)> {
+    Method::ALL.iter().map(|m| (m.key(), *m)).collect()
+}
+
+/// Words of the orders.
+pub(super) fn order_words() -> Vec<(&'static str, Order)> {
+    Order::ALL.iter().map(|o| (o.key(), *o)).collect()
+}
+
+fn read_design(cursor: &Cursor<'_>) -> Result<PoleDesign, DocumentError> {
+    let object = cursor.object(&["method", "order", "poles", "scale", "seed"])?;
+    let default = PoleDesign::default();
+    Ok(PoleDesign {
+        method: object.get("method").map_or(Ok(default.method), |c| c.word(&method_words()))?,
+        order: object.get("order").map_or(Ok(default.order), |c| c.word(&order_words()))?,
+        poles: object.get("poles").map_or(Ok(Vec::new()), |c| read_poles(&c))?,
+        scale: object.get("scale").map_or(Ok(default.scale), |c| c.number_in(1e-3, 1e3))?,
+        seed: object.get("seed").map_or(Ok(default.seed), |c| c.whole_in(0, u64::from(u32::MAX)))?,
+    })
+}
+
+/// A list of poles: numbers, or `[real, imaginary]`.
+pub(super) fn read_poles(cursor: &Cursor<'_>) -> Result<Vec<Complex64>, DocumentError> {
+    let mut poles = Vec::new();
+    for item in cursor.list(MAX_POLES, "poles")? {
+        if item.is_number() {
+            poles.push(Complex64::from(item.number()?));
+            continue;
+        }
+        let parts = if item.is_list() { item.list(2, "numbers")? } else { Vec::new() };
+        let [re, im] = parts.as_slice() else {
+            return Err(item.error("a pole is a number or [real, imaginary]"));
+        };
+        poles.push(Complex64::new(re.number()?, im.number()?));
+    }
+    crate::numerics::conjugate_pairs(&poles).map_err(|error| cursor.error(error.to_string()))?;
+    Ok(poles)
+}
+
+fn scenario(cursor: &Cursor<'_>, sizes: &Sizes) -> Result<ScenarioData, DocumentError> {
+    let object = cursor.object(&["horizon", "samples", "x0", "u", "d", "noise", "uncertainty"])?;
+    let empty = ScenarioData::empty();
+    let horizon = object.get("horizon").map_or(Ok(empty.horizon), |c| c.number_in(1e-6, MAX_HORIZON))?;
+    let samples = object.get("samples").map_or(Ok(empty.samples as u64), |c| c.whole_in(2, MAX_SAMPLES))?;
+    let signals = |key, count, of| object.get(key).map_or(Ok(Vec::new()), |c| read_signals(&c, count, of));
+    Ok(ScenarioData {
+        horizon,
+        samples: usize::try_from(samples).unwrap_or(usize::MAX),
+        x0: object.get("x0").map_or(Ok(Vec::new()), |c| initial_state(&c, sizes.states))?,
+        u: signals("u", sizes.inputs, "known inputs (columns of B)")?,
+        d: signals("d", sizes.unknown, "unknown inputs (columns of D)")?,
+        noise: signals("noise", sizes.outputs, "outputs (rows of C)")?,
+        uncertainty: object.get("uncertainty").map(|c| uncertainty(&c, sizes)).transpose()?,
+    })
+}
+
+fn initial_state(cursor: &Cursor<'_>, n: usize) -> Result<Vec<Entry>, DocumentError> {
+    let items = cursor.list(MAX_SIDE.max(n), "numbers")?;
+    if items.len() != n {
+        return Err(cursor.error(format!("one number for each of the {n} states is needed")));
+    }
+    items.iter().map(Entry::read).collect()
+}
+
+/// A list of signals; a plain number is a constant signal. Empty, or one for each.
+pub(super) fn read_signals(
+    cursor: &Cursor<'_>,
+    count: usize,
+    of: &str,
+) -> Result<Vec<Signal>, DocumentError> {
+    let items = cursor.list(MAX_SIDE, "signals")?;
+    if !items.is_empty() && items.len() != count {
+        return Err(cursor.error(format!("one signal for each of the {count} {of} is needed")));
+    }
+    let signal = |item: &Cursor<'_>| {
+        let text = if item.is_number() { item.number()?.to_string() } else { item.text()?.to_owned() };
+        Signal::parse(&text).map_err(|error| item.error(format!("a signal is an expression in t: {error}")))
+    };
+    items.iter().map(signal).collect()
+}
+
+fn uncertainty(cursor: &Cursor<'_>, sizes: &Sizes) -> Result<UncertaintyData, DocumentError> {
+    let object = cursor.object(&["amplitude", "frequency", "scale"])?;
+    let shaped = |key| {
+        let cursor = object.need(key, "amplitude and frequency are needed, each with the shape of A")?;
+        let matrix = EntryMatrix::read(&cursor)?;
+        let needed = (sizes.equations, sizes.states);
+        if matrix.shape() == needed {
+            return Ok(matrix);
+        }
+        Err(DocumentError::at(
+            cursor.path(),
+            format!("a {} x {} matrix", matrix.shape().0, matrix.shape().1),
+            format!("{} x {} is needed: the shape of A", needed.0, needed.1),
+        ))
+    };
+    Ok(UncertaintyData {
+        amplitude: shaped("amplitude")?,
+        frequency: shaped("frequency")?,
+        scale: object.get("scale").map_or(Ok(1.0), |c| c.number_in(0.0, 1e3))?,
+    })
+}
+
+fn tolerance(cursor: &Cursor<'_>) -> Result<Tolerance, DocumentError> {
+    let object = cursor.object(&["rank", "pencil", "mode", "margin", "gap", "residual"])?;
+    let default = Tolerance::default();
+    let value = |key, or| object.get(key).map_or(Ok(or), |c| c.number_in(1e-15, 1e15));
+    Ok(Tolerance {
+        rank: value("rank", default.rank)?,
+        pencil: value("pencil", default.pencil)?,
+        mode: value("mode", default.mode)?,
+        margin: value("margin", default.margin)?,
+        gap: value("gap", default.gap)?,
+        residual: value("residual", default.residual)?,
+    })
+}
