@@ -4,7 +4,11 @@ mod cursor;
 mod entry;
 mod error;
 mod figures;
+mod import;
+mod import_cells;
+mod import_latex;
 pub mod limits;
+mod matrix_text;
 mod model;
 mod pretty;
 mod read;
@@ -12,6 +16,8 @@ mod write;
 
 pub use entry::{Entry, EntryMatrix};
 pub use error::DocumentError;
+pub use import::{ImportError, PastedMatrix, matrix_from_text};
+pub use matrix_text::{MatrixSyntax, matrix_to_text};
 pub use model::{
     Coupling, DescriptorData, Document, LipschitzData, Matrix, NetworkData, PlantData, ScenarioData,
     UncertaintyData,

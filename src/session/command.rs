@@ -1,0 +1,278 @@
+//! Every intent of a user, as data: the menu, the shortcuts and the tests are made of these.
+
+use crate::document::Matrix;
+use crate::numerics::Complex64;
+use crate::observer::{Method, Order};
+use crate::system::TimeDomain;
+
+/// What a person wants.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Command {
+    /// Open the text of a document; on an error nothing changes and the reason is shown.
+    Open {
+        /// The text.
+        text: String,
+    },
+    /// Open an example by its key.
+    OpenExample {
+        /// Its key.
+        key: String,
+    },
+    /// Undo the last step.
+    Undo,
+    /// Redo what was undone.
+    Redo,
+    /// Change the document.
+    Edit(Edit),
+    /// Change what is shown.
+    Show(Show),
+}
+
+/// A change of the document; each is one step of the history unless it is part of a drag.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Edit {
+    /// The title.
+    Title(String),
+    /// The notes.
+    Notes(String),
+    /// Continuous or discrete time.
+    Time(TimeDomain),
+    /// One cell of a matrix, as typed.
+    Cell {
+        /// The matrix.
+        cell: Cell,
+        /// What was typed.
+        text: String,
+    },
+    /// A pasted block; a block that is larger than what it is pasted onto replaces the whole matrix.
+    Paste {
+        /// The cell that was active.
+        cell: Cell,
+        /// What was pasted.
+        text: String,
+    },
+    /// A whole matrix at once.
+    Fill {
+        /// The matrix.
+        matrix: Matrix,
+        /// With what.
+        fill: Fill,
+    },
+    /// One more or one fewer state, input, output or unknown input; all matrices follow.
+    Size {
+        /// Of what.
+        of: Size,
+        /// Whether one is added, at the end, or the last one removed.
+        grow: bool,
+    },
+    /// A further output that measures one state.
+    AddSensor {
+        /// The state, from zero.
+        state: usize,
+    },
+    /// The method.
+    Method(Method),
+    /// The order.
+    Order(Order),
+    /// All poles, as typed: `-22, -3+2i, -3-2i`.
+    Poles(String),
+    /// One pole moved in the plane; its conjugate follows.
+    MovePole {
+        /// Its place in the list.
+        index: usize,
+        /// Where it is now.
+        to: Complex64,
+        /// The drag ends here.
+        done: bool,
+    },
+    /// The bandwidth factor.
+    Scale {
+        /// The factor.
+        scale: f64,
+        /// The drag ends here.
+        done: bool,
+    },
+    /// Initial state of one component, as typed.
+    Initial {
+        /// The state, from zero.
+        state: usize,
+        /// What was typed.
+        text: String,
+    },
+    /// A signal, as typed.
+    Signal {
+        /// Which list.
+        list: SignalList,
+        /// Which component, from zero.
+        index: usize,
+        /// What was typed.
+        text: String,
+    },
+    /// Horizon in seconds or steps.
+    Horizon(f64),
+    /// Number of recorded instants.
+    Samples(usize),
+    /// Factor on the uncertainty of `A`; creates an uncertainty of one percent when there is none.
+    UncertaintyScale {
+        /// The factor.
+        scale: f64,
+        /// The drag ends here.
+        done: bool,
+    },
+    /// One cell of the uncertainty's amplitudes or frequencies, as typed.
+    UncertaintyCell {
+        /// Row, from zero.
+        row: usize,
+        /// Column, from zero.
+        column: usize,
+        /// The frequency in Hz, not the amplitude.
+        frequency: bool,
+        /// What was typed.
+        text: String,
+    },
+    /// Measurement noise of one standard deviation on all outputs; zero removes it.
+    NoiseLevel {
+        /// Standard deviation.
+        deviation: f64,
+        /// The drag ends here.
+        done: bool,
+    },
+    /// The multiplier of the rank threshold.
+    RankTolerance(f64),
+}
+
+/// A cell of a matrix, rows and columns from zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Cell {
+    /// The matrix.
+    pub matrix: Matrix,
+    /// Row.
+    pub row: usize,
+    /// Column.
+    pub column: usize,
+}
+
+/// Contents for a whole matrix.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fill {
+    /// Zeros.
+    Zero,
+    /// Ones on the diagonal.
+    Identity,
+    /// Small whole numbers by chance, reproducible by the seed.
+    Random {
+        /// The seed.
+        seed: u64,
+    },
+    /// Every entry times a factor.
+    Scaled(f64),
+}
+
+/// The sizes of a system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Size {
+    /// States and, for as long as the system is square, equations.
+    States,
+    /// Equations alone, which makes a system rectangular.
+    Equations,
+    /// Known inputs.
+    Inputs,
+    /// Outputs.
+    Outputs,
+    /// Unknown inputs.
+    UnknownInputs,
+}
+
+/// The lists of signals of a scenario.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SignalList {
+    /// Known inputs.
+    Known,
+    /// Unknown inputs.
+    Unknown,
+    /// Measurement noise.
+    Noise,
+}
+
+/// A change of what is shown; not part of the history.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Show {
+    /// A view of the figures' place.
+    Tab(Tab),
+    /// A figure of the document.
+    Figure(String),
+    /// On narrow screens: one of the three places.
+    Place(Place),
+    /// Light or dark.
+    Theme(ThemeChoice),
+}
+
+/// The views in the figures' place.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tab {
+    /// True and estimated states.
+    #[default]
+    Overview,
+    /// States, one panel each.
+    States,
+    /// Estimation errors.
+    Errors,
+    /// Unknown input, known inputs, outputs.
+    UnknownInput,
+    /// Poles in the complex plane.
+    Poles,
+    /// Frequency responses.
+    Bode,
+    /// Figures of the document.
+    Figures,
+}
+
+impl Tab {
+    /// All views, in the order in which they are offered.
+    pub const ALL: [Self; 7] = [
+        Self::Overview,
+        Self::States,
+        Self::Errors,
+        Self::UnknownInput,
+        Self::Poles,
+        Self::Bode,
+        Self::Figures,
+    ];
+
+    /// The name on screen.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Overview => "Overview",
+            Self::States => "States",
+            Self::Errors => "Errors",
+            Self::UnknownInput => "Unknown input",
+            Self::Poles => "Poles",
+            Self::Bode => "Bode",
+            Self::Figures => "Paper figures",
+        }
+    }
+}
+
+/// The three places of the instrument, of which a narrow screen shows one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Place {
+    /// The system.
+    System,
+    /// The observer.
+    Observer,
+    /// What happens.
+    #[default]
+    Figures,
+}
+
+/// Light, dark, or as the machine is set.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ThemeChoice {
+    /// As the machine is set.
+    #[default]
+    System,
+    /// Light.
+    Light,
+    /// Dark.
+    Dark,
+}

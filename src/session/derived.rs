@@ -1,0 +1,114 @@
+//! What was computed for the session, and what is still to be computed.
+
+use std::collections::BTreeMap;
+
+use super::analysis::Analysis;
+use super::command::Tab;
+use super::job::{JobReply, JobRequest, Outcome, Task};
+use super::state::Session;
+use crate::paper::FigureSpec;
+
+/// Results by the revision of the document that they belong to; recomputed, never saved.
+#[derive(Debug, Default)]
+pub struct Derived {
+    analysis: Option<(u64, Box<Analysis>)>,
+    figures: BTreeMap<String, (u64, Result<FigureSpec, String>)>,
+    running: Option<JobRequest>,
+    progress: (f32, String),
+    failure: Option<String>,
+    /// Revision whose analysis failed or was cancelled, so that it is not started again.
+    given_up: Option<u64>,
+    next_id: u64,
+}
+
+impl Derived {
+    /// The newest analysis; it may belong to an earlier revision while the next is computed.
+    pub fn analysis(&self) -> Option<&Analysis> {
+        self.analysis.as_ref().map(|(_, analysis)| analysis.as_ref())
+    }
+
+    /// Whether the newest analysis belongs to that revision.
+    pub fn is_current(&self, revision: u64) -> bool {
+        self.analysis.as_ref().is_some_and(|(of, _)| *of == revision)
+    }
+
+    /// The newest result for a figure.
+    pub fn figure(&self, id: &str) -> Option<&Result<FigureSpec, String>> {
+        self.figures.get(id).map(|(_, figure)| figure)
+    }
+
+    /// What is being computed, how far it is.
+    pub fn running(&self) -> Option<(&Task, f32, &str)> {
+        self.running.as_ref().map(|job| (&job.task, self.progress.0, self.progress.1.as_str()))
+    }
+
+    /// Why the last computation broke off.
+    pub fn failure(&self) -> Option<&str> {
+        self.failure.as_deref()
+    }
+
+    /// The next request, when nothing runs and something is out of date.
+    ///
+    /// The analysis comes first; then the chosen figure, when it is on screen.
+    pub fn next_request(&mut self, session: &Session) -> Option<JobRequest> {
+        if self.running.is_some() {
+            return None;
+        }
+        let revision = session.revision();
+        let task = if !self.is_current(revision) && self.given_up != Some(revision) {
+            Task::Analyse
+        } else {
+            let id = session.view().figure.clone().filter(|_| session.view().tab == Tab::Figures)?;
+            let exists = session.document().figures.iter().any(|figure| figure.id == id);
+            let current = self.figures.get(&id).is_some_and(|(of, _)| *of == revision);
+            if current || !exists {
+                return None;
+            }
+            Task::Figure { id }
+        };
+        self.next_id += 1;
+        let request = JobRequest { id: self.next_id, revision, document: session.document_text(), task };
+        self.progress = (0.0, String::new());
+        self.running = Some(request.clone());
+        Some(request)
+    }
+
+    /// Takes a reply; one that nobody waits for any more is dropped.
+    pub fn receive(&mut self, reply: JobReply) {
+        if self.running.as_ref().is_none_or(|job| job.id != reply.id) {
+            return;
+        }
+        match reply.outcome {
+            Outcome::Progress { fraction, what } => {
+                self.progress = (fraction, what);
+                return;
+            }
+            Outcome::Analysis(analysis) => {
+                self.analysis = Some((reply.revision, analysis));
+                self.failure = None;
+            }
+            Outcome::Figure { id, figure } => {
+                self.figures.insert(id, (reply.revision, figure));
+            }
+            Outcome::Failed(why) => self.break_off(why),
+        }
+        self.running = None;
+    }
+
+    /// The running computation was cancelled.
+    pub fn cancelled(&mut self) {
+        self.break_off("cancelled".to_owned());
+        self.running = None;
+    }
+
+    fn break_off(&mut self, why: String) {
+        match self.running.as_ref() {
+            Some(JobRequest { task: Task::Analyse, revision, .. }) => self.given_up = Some(*revision),
+            Some(JobRequest { task: Task::Figure { id }, revision, .. }) => {
+                self.figures.insert(id.clone(), (*revision, Err(why.clone())));
+            }
+            None => {}
+        }
+        self.failure = Some(why);
+    }
+}

@@ -1,0 +1,102 @@
+//! What is computed away from the screen: requests and replies as data.
+
+use serde::{Deserialize, Serialize};
+
+use super::analysis::{Analysis, analyse};
+use crate::document::read_document;
+use crate::paper::{FigureSpec, Problem, compute_figure};
+
+/// A computation that is asked for.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct JobRequest {
+    /// Number of the request; replies carry it.
+    pub id: u64,
+    /// Revision of the document that it belongs to.
+    pub revision: u64,
+    /// The document, as text: what comes in is checked again on the other side.
+    pub document: String,
+    /// What to compute.
+    pub task: Task,
+}
+
+/// What to compute.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Task {
+    /// Properties, conditions, design, simulation and standard views.
+    Analyse,
+    /// One figure of the document.
+    Figure {
+        /// Its id.
+        id: String,
+    },
+}
+
+/// What came of a request.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct JobReply {
+    /// Number of the request.
+    pub id: u64,
+    /// Revision of the document.
+    pub revision: u64,
+    /// The outcome.
+    pub outcome: Outcome,
+}
+
+/// The outcome of a computation, or a step on the way.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Outcome {
+    /// How far it is, from 0 to 1, and at what.
+    Progress {
+        /// Fraction.
+        fraction: f32,
+        /// What is being done.
+        what: String,
+    },
+    /// The analysis of the document.
+    Analysis(Box<Analysis>),
+    /// A figure, or why there is none.
+    Figure {
+        /// Its id.
+        id: String,
+        /// The figure.
+        figure: Result<FigureSpec, String>,
+    },
+    /// The request could not be understood or the computation broke off.
+    Failed(String),
+}
+
+/// Receives progress; returns whether to go on.
+pub type Progress<'a> = &'a mut dyn FnMut(f32, &str) -> bool;
+
+/// Performs a request to its end; `None` when `progress` said stop.
+pub fn perform(request: &JobRequest, progress: Progress<'_>) -> Option<JobReply> {
+    let reply = |outcome| JobReply { id: request.id, revision: request.revision, outcome };
+    let document = match read_document(&request.document) {
+        Ok(document) => document,
+        Err(error) => return Some(reply(Outcome::Failed(error.to_string()))),
+    };
+    let outcome = match &request.task {
+        Task::Analyse => Outcome::Analysis(Box::new(analyse(&document, progress)?)),
+        Task::Figure { id } => {
+            if !progress(0.1, "designing and simulating the figure") {
+                return None;
+            }
+            Outcome::Figure { id: id.clone(), figure: figure(&document, id) }
+        }
+    };
+    Some(reply(outcome))
+}
+
+fn figure(document: &crate::document::Document, id: &str) -> Result<FigureSpec, String> {
+    let recipe = document.figures.iter().find(|recipe| recipe.id == id);
+    let recipe = recipe.ok_or_else(|| format!("the document has no figure \"{id}\""))?;
+    let system = document.system().map_err(|error| error.to_string())?;
+    let scenario = document.scenario(&system);
+    let problem = Problem {
+        system: &system,
+        design: &document.design,
+        scenario: &scenario,
+        tolerance: &document.tolerance,
+    };
+    compute_figure(&problem, recipe)
+}

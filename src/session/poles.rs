@@ -1,0 +1,202 @@
+//! The list of poles: reading, moving in the plane, providing enough for an order.
+
+use crate::document::Document;
+use crate::document::limits::MAX_POLES;
+use crate::numerics::{Complex64, conjugate_pairs, rank};
+use crate::observer::{Method, Order, show};
+use crate::system::TimeDomain;
+
+/// Reads `-22, -3+2i, -3-2i`; commas, semicolons or spaces between them, `i` or `j`, brackets are ignored.
+pub(super) fn parse(text: &str) -> Result<Vec<Complex64>, String> {
+    let cleaned: String =
+        text.chars().map(|c| if matches!(c, '[' | ']' | '{' | '}' | ';') { ' ' } else { c }).collect();
+    let words: Vec<&str> =
+        cleaned.split(|c: char| c == ',' || c.is_whitespace()).filter(|word| !word.is_empty()).collect();
+    if words.len() > MAX_POLES {
+        return Err(format!("{} poles; at most {MAX_POLES} are possible", words.len()));
+    }
+    let mut poles = Vec::new();
+    for word in words {
+        poles.push(pole(word)?);
+    }
+    conjugate_pairs(&poles).map_err(|error| error.to_string())?;
+    Ok(poles)
+}
+
+/// Reads one pole; the imaginary part ends in `i` or `j` and may use a constant expression without signs inside.
+fn pole(word: &str) -> Result<Complex64, String> {
+    let wrong = |why: String| format!("`{word}` is not a pole such as -22 or -3+2i: {why}");
+    let constant = |text: &str| crate::expression::constant(text).map_err(|error| wrong(error.to_string()));
+    let Some(body) =
+        word.strip_suffix(['i', 'j']).filter(|body| !body.ends_with(|c: char| c.is_ascii_alphabetic()))
+    else {
+        return Ok(Complex64::from(constant(word)?));
+    };
+    // the last sign that is not an exponent's parts the real from the imaginary part
+    let bytes = body.as_bytes();
+    let split = (1..bytes.len()).rev().find(|&k| {
+        matches!(bytes[k], b'+' | b'-') && !matches!(bytes[k - 1], b'e' | b'E' | b'(' | b'*' | b'/')
+    });
+    let (re, im) = split.map_or(("0", body), |k| body.split_at(k));
+    let im = match im {
+        "" | "+" => 1.0,
+        "-" => -1.0,
+        _ => constant(im.trim_end_matches('*'))?,
+    };
+    Ok(Complex64::new(constant(re)?, im))
+}
+
+/// Writes a list as [`parse`] reads it.
+pub fn poles_text(poles: &[Complex64]) -> String {
+    poles.iter().map(|pole| show(*pole)).collect::<Vec<_>>().join(", ")
+}
+
+/// Below this share of its distance from the origin a dragged pole snaps onto the real axis.
+const SNAP: f64 = 0.03;
+
+/// Moves one pole; a pair moves together, a pair dropped on the real axis becomes two real poles, and a real pole
+/// pulled off the axis takes the nearest other real pole along as its conjugate.
+pub(super) fn move_pole(poles: &mut [Complex64], index: usize, to: Complex64) {
+    let Some(&from) = poles.get(index) else { return };
+    let on_axis = to.im.abs() <= SNAP * to.norm();
+    let conjugate = |k: &usize| *k != index && (poles[*k] - from.conj()).norm() <= 1e-9 * from.norm();
+    let partner = if from.im == 0.0 { None } else { (0..poles.len()).find(conjugate) };
+    match (partner, on_axis) {
+        (Some(partner), false) => {
+            poles[index] = to;
+            poles[partner] = to.conj();
+        }
+        (Some(partner), true) => {
+            poles[index] = Complex64::from(to.re);
+            poles[partner] = Complex64::from(to.re * 1.05);
+        }
+        (None, true) => poles[index] = Complex64::from(to.re),
+        (None, false) => {
+            let real = |k: &usize| *k != index && poles[*k].im == 0.0;
+            let distance = |k: usize| (poles[k].re - from.re).abs();
+            let nearest = (0..poles.len()).filter(real).min_by(|&a, &b| distance(a).total_cmp(&distance(b)));
+            match nearest {
+                Some(nearest) => {
+                    poles[index] = to;
+                    poles[nearest] = to.conj();
+                }
+                None => poles[index] = Complex64::from(to.re),
+            }
+        }
+    }
+}
+
+/// Adds poles until the chosen order has enough; never removes or moves one.
+///
+/// New poles continue the list to the left of its fastest real part (discrete: between 0.3 and 0.7).
+pub(super) fn provide(document: &mut Document) {
+    let Ok(system) = document.system() else { return };
+    let Ok(rank) = rank(&system.E, 0.0, &document.tolerance) else { return };
+    let (n, q) = (system.n_states(), system.n_unknown_inputs());
+    let design = &mut document.design;
+    let needed = match (design.method, design.order) {
+        (Method::Proportional, Order::Reduced) => rank.rank,
+        (Method::Proportional, Order::Full | Order::General) => n,
+        (Method::ProportionalIntegral, Order::Reduced) => rank.rank + q,
+        (Method::ProportionalIntegral, Order::Full | Order::General) => n + q,
+    };
+    while design.poles.len() < needed.min(MAX_POLES) {
+        let k = design.poles.len();
+        let next = match system.time {
+            TimeDomain::Continuous => {
+                let fastest = design.poles.iter().map(|pole| pole.re).fold(-1.0, f64::min);
+                let next = fastest * 1.2;
+                // two significant digits are enough for a proposal
+                let unit = 10_f64.powf(next.abs().log10().floor() - 1.0);
+                (next / unit).round() * unit
+            }
+            TimeDomain::Discrete => 0.3 + 0.05 * (k % 9) as f64,
+        };
+        design.poles.push(Complex64::from(next));
+    }
+    pair_up(document, needed);
+}
+
+/// Where the first `needed` poles would cut a pair, swaps the pair's first member with the next real pole.
+fn pair_up(document: &mut Document, needed: usize) {
+    let poles = &mut document.design.poles;
+    let used = needed.min(poles.len());
+    if used == 0 || conjugate_pairs(&poles[..used]).is_ok() {
+        return;
+    }
+    let last_pair = (0..used).rev().find(|&k| poles[k].im != 0.0);
+    let real = (used..poles.len()).find(|&k| poles[k].im == 0.0);
+    match (last_pair, real) {
+        (Some(k), Some(real)) => poles.swap(k, real),
+        (Some(k), None) => {
+            let partner =
+                (used..poles.len()).find(|&j| (poles[j] - poles[k].conj()).norm() <= 1e-9 * poles[k].norm());
+            if let Some(partner) = partner {
+                let re = poles[k].re;
+                poles[k] = Complex64::from(re);
+                poles[partner] = Complex64::from(re * 1.05);
+            }
+        }
+        (None, _) => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn c(re: f64, im: f64) -> Complex64 {
+        Complex64::new(re, im)
+    }
+
+    #[test]
+    fn poles_are_read_in_every_usual_form() {
+        let found = parse("[-22; -1e-3, -3+2i -3-2j {-2*pi}]").unwrap();
+        assert_eq!(
+            found,
+            [c(-22.0, 0.0), c(-1e-3, 0.0), c(-3.0, 2.0), c(-3.0, -2.0), c(-2.0 * std::f64::consts::PI, 0.0)]
+        );
+        assert_eq!(parse("i -i").unwrap(), [c(0.0, 1.0), c(0.0, -1.0)], "the imaginary unit alone");
+        assert_eq!(
+            parse("-1-1e-2i, -1+1e-2i").unwrap(),
+            [c(-1.0, -0.01), c(-1.0, 0.01)],
+            "exponents keep their sign"
+        );
+    }
+
+    #[test]
+    fn what_is_not_a_pole_is_named() {
+        assert!(parse("-1, fast").unwrap_err().contains("`fast`"), "names the word");
+        assert!(parse("-1+2i").unwrap_err().contains("conjugate"), "half a pair");
+        assert!(parse("1/0").is_err(), "not finite");
+    }
+
+    #[test]
+    fn texts_of_poles_read_back() {
+        let poles = [c(-22.0, 0.0), c(-3.0, 2.5), c(-3.0, -2.5)];
+        assert_eq!(parse(&poles_text(&poles)).unwrap(), poles, "write, then read");
+    }
+
+    #[test]
+    fn a_pair_moves_together() {
+        let mut poles = [c(-1.0, 1.0), c(-5.0, 0.0), c(-1.0, -1.0)];
+        move_pole(&mut poles, 2, c(-2.0, -3.0));
+        assert_eq!(poles, [c(-2.0, 3.0), c(-5.0, 0.0), c(-2.0, -3.0)], "the conjugate follows");
+    }
+
+    #[test]
+    fn a_real_pole_takes_the_nearest_one_off_the_axis() {
+        let mut poles = [c(-1.0, 0.0), c(-9.0, 0.0), c(-2.0, 0.0)];
+        move_pole(&mut poles, 0, c(-1.5, 1.0));
+        assert_eq!(poles, [c(-1.5, 1.0), c(-9.0, 0.0), c(-1.5, -1.0)], "-2 was nearer than -9");
+        move_pole(&mut poles, 0, c(-1.5, 0.001));
+        assert!(poles.iter().all(|pole| pole.im == 0.0), "back on the axis: two real poles again");
+    }
+
+    #[test]
+    fn the_last_real_pole_stays_on_the_axis() {
+        let mut poles = [c(-1.0, 0.0)];
+        move_pole(&mut poles, 0, c(-2.0, 5.0));
+        assert_eq!(poles, [c(-2.0, 0.0)], "there is no partner");
+    }
+}

@@ -1,0 +1,350 @@
+//! The only writer of a session: a command in, a changed session out.
+
+use std::sync::Arc;
+
+use super::command::{Cell, Command, Edit, Show, SignalList};
+use super::state::{Draft, Field, Message, Session};
+use super::{edit_plant, poles};
+use crate::document::{Document, Entry, EntryMatrix, PlantData, UncertaintyData, limits, read_document};
+use crate::numerics::Complex64;
+use crate::paper::example;
+use crate::system::Signal;
+
+/// Carries out a command.
+///
+/// What cannot be done leaves the document as it is and says why: in the status line, or, for something typed, beside
+/// the field, which keeps the text.
+pub fn update(session: &mut Session, command: Command) {
+    match command {
+        Command::Open { text } => open(session, &text, "the document"),
+        Command::OpenExample { key } => match example(&key) {
+            Some(example) => open(session, example.text, example.title),
+            None => session.tell(format!("there is no example \"{key}\""), true),
+        },
+        Command::Undo => step(session, true),
+        Command::Redo => step(session, false),
+        Command::Edit(edit) => apply(session, edit),
+        Command::Show(show) => match show {
+            Show::Tab(tab) => session.view.tab = tab,
+            Show::Figure(id) => session.view.figure = Some(id),
+            Show::Place(place) => session.view.place = place,
+            Show::Theme(theme) => session.view.theme = theme,
+        },
+    }
+}
+
+fn open(session: &mut Session, text: &str, what: &str) {
+    match read_document(text) {
+        Ok(document) => {
+            let figure = document.figures.first().map(|figure| figure.id.clone());
+            session.history.drag_ended();
+            replace(session, document, None);
+            session.drafts.clear();
+            session.view.figure = figure;
+            session.tell(format!("opened {what}"), false);
+        }
+        Err(error) => session.tell(format!("{what} was not opened: {error}"), true),
+    }
+}
+
+fn step(session: &mut Session, back: bool) {
+    let now = Arc::clone(&session.document);
+    let next = if back { session.history.undo(now) } else { session.history.redo(now) };
+    if let Some(document) = next {
+        session.document = document;
+        session.drafts.clear();
+        session.message = None;
+        session.revision += 1;
+        let known = |id: &String| session.document.figures.iter().any(|figure| figure.id == *id);
+        if !session.view.figure.as_ref().is_some_and(known) {
+            session.view.figure = session.document.figures.first().map(|figure| figure.id.clone());
+        }
+    }
+}
+
+/// Puts a changed document in force; an unchanged one leaves no step behind.
+fn replace(session: &mut Session, document: Document, drag: Option<String>) {
+    if *session.document == document {
+        return;
+    }
+    session.history.remember(Arc::clone(&session.document), drag);
+    session.document = Arc::new(document);
+    session.message = None;
+    session.revision += 1;
+}
+
+/// What became of an edit.
+pub(super) enum Edited {
+    /// The document changed, or stayed as it is.
+    Done,
+    /// A typed text is not understood.
+    Draft(Field, Draft),
+    /// It cannot be done.
+    Refused(String),
+}
+
+fn apply(session: &mut Session, edit: Edit) {
+    let drag = drag_key(&edit);
+    let ends = drag.as_ref().is_none_or(|(_, done)| *done);
+    let field = typed_field(&edit);
+    let mut document = (*session.document).clone();
+    match change(&mut document, edit) {
+        Edited::Done => {
+            if let Some(field) = field {
+                session.drafts.remove(&field);
+            }
+            let sizes_before = sizes(&session.document);
+            let sizes_after = sizes(&document);
+            if sizes_before != sizes_after {
+                session.drafts.clear();
+            }
+            replace(session, document, drag.map(|(key, _)| key));
+        }
+        Edited::Draft(field, draft) => {
+            session.drafts.insert(field, draft);
+        }
+        Edited::Refused(why) => session.message = Some(Message { text: why, error: true }),
+    }
+    if ends {
+        session.history.drag_ended();
+    }
+}
+
+fn sizes(document: &Document) -> Vec<(usize, usize)> {
+    match &document.plant {
+        PlantData::Descriptor(data) => data.matrices.iter().map(EntryMatrix::shape).collect(),
+        PlantData::Network(_) => Vec::new(),
+    }
+}
+
+/// Key of a drag and whether it ends with this edit; `None` for an edit that is a step of its own.
+fn drag_key(edit: &Edit) -> Option<(String, bool)> {
+    match edit {
+        Edit::MovePole { index, done, .. } => Some((format!("pole {index}"), *done)),
+        Edit::Scale { done, .. } => Some(("scale".to_owned(), *done)),
+        Edit::UncertaintyScale { done, .. } => Some(("uncertainty".to_owned(), *done)),
+        Edit::NoiseLevel { done, .. } => Some(("noise".to_owned(), *done)),
+        Edit::Title(_) => Some(("title".to_owned(), false)),
+        Edit::Notes(_) => Some(("notes".to_owned(), false)),
+        Edit::Horizon(_) => Some(("horizon".to_owned(), false)),
+        Edit::Time(_)
+        | Edit::Cell { .. }
+        | Edit::Paste { .. }
+        | Edit::Fill { .. }
+        | Edit::Size { .. }
+        | Edit::AddSensor { .. }
+        | Edit::Method(_)
+        | Edit::Order(_)
+        | Edit::Poles(_)
+        | Edit::Initial { .. }
+        | Edit::Signal { .. }
+        | Edit::Samples(_)
+        | Edit::UncertaintyCell { .. }
+        | Edit::RankTolerance(_) => None,
+    }
+}
+
+/// The field whose draft an edit clears when it is understood.
+fn typed_field(edit: &Edit) -> Option<Field> {
+    match edit {
+        Edit::Cell { cell, .. } => Some(Field::Cell(*cell)),
+        Edit::Poles(_) | Edit::MovePole { .. } => Some(Field::Poles),
+        Edit::Initial { state, .. } => Some(Field::Initial(*state)),
+        Edit::Signal { list, index, .. } => Some(Field::Signal(*list, *index)),
+        Edit::UncertaintyCell { row, column, frequency, .. } => {
+            Some(Field::Uncertainty(*row, *column, *frequency))
+        }
+        Edit::Title(_)
+        | Edit::Notes(_)
+        | Edit::Time(_)
+        | Edit::Paste { .. }
+        | Edit::Fill { .. }
+        | Edit::Size { .. }
+        | Edit::AddSensor { .. }
+        | Edit::Method(_)
+        | Edit::Order(_)
+        | Edit::Scale { .. }
+        | Edit::Horizon(_)
+        | Edit::Samples(_)
+        | Edit::UncertaintyScale { .. }
+        | Edit::NoiseLevel { .. }
+        | Edit::RankTolerance(_) => None,
+    }
+}
+
+fn change(document: &mut Document, edit: Edit) -> Edited {
+    match edit {
+        Edit::Title(title) => document.title = clipped(title),
+        Edit::Notes(notes) => document.notes = clipped(notes),
+        Edit::Time(_)
+        | Edit::Cell { .. }
+        | Edit::Paste { .. }
+        | Edit::Fill { .. }
+        | Edit::Size { .. }
+        | Edit::AddSensor { .. } => {
+            let edited = edit_plant::change(document, edit);
+            poles::provide(document);
+            return edited;
+        }
+        Edit::Method(method) => {
+            document.design.method = method;
+            poles::provide(document);
+        }
+        Edit::Order(order) => {
+            document.design.order = order;
+            poles::provide(document);
+        }
+        Edit::Poles(text) => match poles::parse(&text) {
+            Ok(found) => document.design.poles = found,
+            Err(error) => return Edited::Draft(Field::Poles, Draft { text, error }),
+        },
+        Edit::MovePole { index, to, .. } => {
+            if to.re.is_finite() && to.im.is_finite() {
+                poles::move_pole(&mut document.design.poles, index, to);
+            }
+        }
+        Edit::Scale { scale, .. } => {
+            if scale.is_finite() {
+                document.design.scale = scale.clamp(0.01, 1000.0);
+            }
+        }
+        Edit::RankTolerance(rank) => {
+            if rank.is_finite() {
+                document.tolerance.rank = rank.clamp(1.0, 1e12);
+            }
+        }
+        Edit::Initial { .. }
+        | Edit::Signal { .. }
+        | Edit::Horizon(_)
+        | Edit::Samples(_)
+        | Edit::UncertaintyScale { .. }
+        | Edit::UncertaintyCell { .. }
+        | Edit::NoiseLevel { .. } => return change_scenario(document, edit),
+    }
+    Edited::Done
+}
+
+fn clipped(text: String) -> String {
+    if text.len() <= limits::MAX_TEXT { text } else { text.chars().take(limits::MAX_TEXT / 4).collect() }
+}
+
+fn change_scenario(document: &mut Document, edit: Edit) -> Edited {
+    let counts = Counts::of(document);
+    let scenario = &mut document.scenario;
+    match edit {
+        Edit::Horizon(horizon) if horizon.is_finite() => {
+            scenario.horizon = horizon.clamp(1e-3, limits::MAX_HORIZON);
+        }
+        Edit::Samples(samples) => {
+            let most = usize::try_from(limits::MAX_SAMPLES).unwrap_or(usize::MAX);
+            scenario.samples = samples.clamp(2, most);
+        }
+        Edit::Initial { state, text } => match Entry::typed(&text) {
+            Ok(entry) if state < counts.states => {
+                scenario.x0.resize(counts.states, Entry::number(0.0));
+                scenario.x0[state] = entry;
+            }
+            Ok(_) => {}
+            Err(error) => return Edited::Draft(Field::Initial(state), Draft { text, error }),
+        },
+        Edit::Signal { list, index, text } => match Signal::parse(&text) {
+            Ok(signal) => counts.set_signal(scenario, list, index, signal),
+            Err(error) => {
+                return Edited::Draft(Field::Signal(list, index), Draft { text, error: error.to_string() });
+            }
+        },
+        Edit::UncertaintyScale { scale, .. } if scale.is_finite() => {
+            counts.uncertainty(scenario).scale = scale.clamp(0.0, 1000.0);
+        }
+        Edit::UncertaintyCell { row, column, frequency, text } => match Entry::typed(&text) {
+            Ok(entry) => {
+                let data = counts.uncertainty(scenario);
+                let matrix = if frequency { &mut data.frequency } else { &mut data.amplitude };
+                matrix.set(row, column, entry);
+            }
+            Err(error) => {
+                return Edited::Draft(Field::Uncertainty(row, column, frequency), Draft { text, error });
+            }
+        },
+        Edit::NoiseLevel { deviation, .. } if deviation.is_finite() => {
+            let interval = scenario.horizon / 300.0;
+            let signal = |i: usize| noise_signal(deviation.clamp(0.0, 1e3), interval, i);
+            scenario.noise =
+                if deviation > 0.0 { (0..counts.outputs).filter_map(signal).collect() } else { Vec::new() };
+        }
+        _ => {}
+    }
+    Edited::Done
+}
+
+/// Seeded noise of one standard deviation for output `i`.
+fn noise_signal(deviation: f64, interval: f64, i: usize) -> Option<Signal> {
+    Signal::parse(&format!("{deviation}*noise(t/{interval}, {})", i + 1)).ok()
+}
+
+/// Sizes that lists of signals follow.
+struct Counts {
+    states: usize,
+    equations: usize,
+    inputs: usize,
+    unknown: usize,
+    outputs: usize,
+}
+
+impl Counts {
+    fn of(document: &Document) -> Self {
+        match &document.plant {
+            PlantData::Descriptor(data) => {
+                let [e, _, b, c, d, _] = data.matrices.each_ref().map(EntryMatrix::shape);
+                Self { states: e.1, equations: e.0, inputs: b.1, unknown: d.1, outputs: c.0 }
+            }
+            PlantData::Network(_) => Self { states: 0, equations: 0, inputs: 0, unknown: 0, outputs: 0 },
+        }
+    }
+
+    fn set_signal(
+        &self,
+        scenario: &mut crate::document::ScenarioData,
+        list: SignalList,
+        index: usize,
+        signal: Signal,
+    ) {
+        let (signals, count) = match list {
+            SignalList::Known => (&mut scenario.u, self.inputs),
+            SignalList::Unknown => (&mut scenario.d, self.unknown),
+            SignalList::Noise => (&mut scenario.noise, self.outputs),
+        };
+        let Ok(zero) = Signal::parse("0") else { return };
+        if index < count {
+            signals.resize(count, zero);
+            signals[index] = signal;
+        }
+    }
+
+    /// The uncertainty, created with one percent at 0.1 to 0.9 Hz where there is none.
+    fn uncertainty<'a>(&self, scenario: &'a mut crate::document::ScenarioData) -> &'a mut UncertaintyData {
+        let (e, n) = (self.equations, self.states);
+        scenario.uncertainty.get_or_insert_with(|| {
+            let frequency = |k: usize| Entry::number(0.1 + 0.1 * (k % 9) as f64);
+            UncertaintyData {
+                amplitude: EntryMatrix::from_entries(e, n, vec![Entry::number(0.01); e * n]),
+                frequency: EntryMatrix::from_entries(e, n, (0..e * n).map(frequency).collect()),
+                scale: 1.0,
+            }
+        })
+    }
+}
+
+/// A short name for a cell, `A[1, 2]` counted from one.
+pub fn cell_name(cell: Cell) -> String {
+    format!("{}[{}, {}]", cell.matrix.letter(), cell.row + 1, cell.column + 1)
+}
+
+/// A pole in a list with its scale undone: what a drag in the plane of scaled poles means for the list.
+pub fn unscaled(pole: Complex64, scale: f64, discrete: bool) -> Complex64 {
+    match (discrete, pole.norm() == 0.0) {
+        (_, true) => pole,
+        (false, false) => pole / scale,
+        (true, false) => Complex64::from_polar(pole.norm().powf(1.0 / scale), pole.arg() / scale),
+    }
+}
