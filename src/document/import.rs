@@ -96,6 +96,9 @@ fn entries(count: usize) -> String {
 
 /// Reads a whole matrix in any of the notations above; a single number is a 1 x 1 matrix.
 ///
+/// Without brackets a line of cells between semicolons is a row, as spreadsheets write it, and `1,5;2,5` on it are decimal
+/// commas; `1 2; 3 4` and lines that end in a semicolon are rows between semicolons, as in MATLAB.
+///
 /// # Errors
 /// What was found, in which row and column, and what is needed.
 ///

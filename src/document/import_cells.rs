@@ -66,6 +66,10 @@ fn row_entries(line: &str) -> Vec<String> {
             ')' | ']' | '}' => depth = depth.saturating_sub(1),
             _ => {}
         }
+        // Of several spaces the first decides.
+        if c.is_whitespace() && place > 0 && characters[place - 1].is_whitespace() {
+            continue;
+        }
         let comma = depth == 0 && c == ',';
         let space = depth == 0 && c.is_whitespace() && separates(&entry, &characters[place..]);
         if !comma && !space {

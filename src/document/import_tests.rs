@@ -114,6 +114,21 @@ fn errors_name_row_and_column() {
     }
 }
 
+#[test]
+fn long_texts_take_no_longer_than_they_are_long() {
+    for piece in [
+        " ", "\t", "[", "{", "(", ",", ";", "\n", "\\frac", "\\frac{", "\\\\", "&", "\"", "1 ", "=", "...",
+        "- ",
+    ] {
+        for frame in ["1@- 2", "[1@]", "[[1@]]", "\\begin{x}1@\\end{x}", "1;2@3"] {
+            let text = frame.replace('@', &piece.repeat(150_000 / piece.len()));
+            let entries = matrix_from_text(&text).map_or(0, |matrix| matrix.entries.len());
+            assert!(entries <= 2, "{frame}: {piece:?} read as {entries} entries");
+        }
+    }
+    assert_eq!(read(&format!("[1{}- 2]", " ".repeat(900_000))), (1, 1, vec![-1.0]), "spaces do not matter");
+}
+
 #[cfg(not(target_arch = "wasm32"))]
 mod random {
     use super::*;

@@ -153,5 +153,7 @@ pub fn constant(text: &str) -> Result<f64, ExpressionError> {
     })
 }
 
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod random_tests;
 #[cfg(test)]
 mod tests;
