@@ -1,1 +1,48 @@
-//! L5: the screen.
+//! L5: the screen: reads the session and what is derived, returns commands, writes nothing.
+
+mod app;
+pub mod figures_panel;
+pub mod observer_panel;
+pub mod plot;
+pub mod pole_plane;
+mod shortcuts;
+mod status_bar;
+pub mod system_panel;
+pub mod theme;
+mod top_bar;
+
+pub use app::App;
+
+use crate::session::{Cell, Command, Edit, Show};
+
+/// What a frame asks for.
+#[derive(Debug, Default)]
+pub struct Output {
+    /// Commands, in the order of the clicks.
+    pub commands: Vec<Command>,
+    /// Stop the running computation.
+    pub cancel: bool,
+}
+
+impl Output {
+    /// Asks for a change of the document.
+    pub fn edit(&mut self, edit: Edit) {
+        self.commands.push(Command::Edit(edit));
+    }
+
+    /// Asks for a change of what is shown.
+    pub fn show(&mut self, show: Show) {
+        self.commands.push(Command::Show(show));
+    }
+}
+
+/// State of widgets that is neither document nor view: what is being typed, which cell is active.
+#[derive(Debug, Default)]
+pub struct Widgets {
+    /// The text being typed into the focused field, with the field's id.
+    pub typing: Option<(egui::Id, String)>,
+    /// The active cell of a matrix, for pasting.
+    pub active_cell: Option<Cell>,
+    /// The condition whose explanation is open.
+    pub open_condition: Option<String>,
+}
