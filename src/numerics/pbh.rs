@@ -34,10 +34,8 @@ pub(super) fn tests(
     tolerance: &Tolerance,
 ) -> Result<Vec<Test>, NumericsError> {
     let n = a.nrows();
-    let spectrum = eigenvalues(a)?;
-    let reach = CLUSTER_TOLERANCE * a.norm() / (n.max(1) as f64).sqrt();
     let mut result: Vec<Test> = Vec::new();
-    for cluster in clusters(spectrum, reach) {
+    for cluster in clusters(scattered_spectrum(a)?) {
         let limit = tolerance.mode * scale;
         let Some((mut best, mut multiplicity)) = least_seen_of(a, c, &cluster, scale, limit)? else {
             continue;
@@ -138,22 +136,49 @@ fn hidden_nearby(
     Ok(Some(found))
 }
 
-/// Groups eigenvalues that are linked by steps shorter than the reach.
-fn clusters(mut spectrum: Vec<Complex64>, reach: f64) -> Vec<Vec<Complex64>> {
+/// Groups eigenvalues that are linked by steps shorter than the reach of either end.
+fn clusters(mut spectrum: Vec<(Complex64, f64)>) -> Vec<Vec<Complex64>> {
     let mut result = Vec::new();
     while !spectrum.is_empty() {
         let mut cluster = vec![spectrum.remove(0)];
         let mut next = 0;
-        while let Some(&center) = cluster.get(next) {
-            let limit = reach.max(CLUSTER_TOLERANCE * center.norm());
-            let (near, far) = spectrum.iter().partition(|z| (**z - center).norm() <= limit);
+        while let Some(&(center, reach)) = cluster.get(next) {
+            let (near, far): (Vec<_>, Vec<_>) =
+                spectrum.iter().partition(|(z, other)| (z - center).norm() <= reach.max(*other));
             spectrum = far;
-            cluster.extend::<Vec<_>>(near);
+            cluster.extend(near);
             next += 1;
         }
-        result.push(cluster);
+        result.push(cluster.into_iter().map(|(z, _)| z).collect());
     }
     result
+}
+
+/// The eigenvalues of `A`, each with the distance within which others belong to the same cluster.
+///
+/// ```text
+/// reach = max( 1e-4 |lambda|, 1e-4 norm(A) / sqrt n, 10 eps norm(A) / |u' v| ),   u, v = left and right eigenvector
+/// ```
+///
+/// The last term is the rounding error of the eigenvalue; the members of a scattered Jordan block reach each other by it.
+fn scattered_spectrum(a: &DMatrix<f64>) -> Result<Vec<(Complex64, f64)>, NumericsError> {
+    const FACTOR: f64 = 10.0;
+    let per_state = a.norm() / (a.nrows().max(1) as f64).sqrt();
+    let doubt = EIGENVALUE_DOUBT * per_state;
+    let no_output = DMatrix::zeros(0, a.ncols());
+    let spectrum = eigenvalues(a)?;
+    let mut result = Vec::with_capacity(spectrum.len());
+    for (i, &z) in spectrum.iter().enumerate() {
+        let mut reach = CLUSTER_TOLERANCE * per_state.max(z.norm());
+        let has_neighbour = spectrum.iter().enumerate().any(|(j, w)| i != j && (z - w).norm() <= doubt);
+        if has_neighbour {
+            let cosine = least_seen(a, &no_output, z)?.slope.norm();
+            let rounding = FACTOR * f64::EPSILON * a.norm() / cosine.max(f64::MIN_POSITIVE);
+            reach = reach.max(rounding.min(doubt));
+        }
+        result.push((z, reach));
+    }
+    Ok(result)
 }
 
 /// `[at I - A; C]` by its singular values and vectors.
