@@ -6,7 +6,7 @@ mod exact;
 
 use descry::numerics::{
     Complex64, NumericsError, Placement, PlacementError, PlacementMethod, PlacementOptions, PlacementWarning,
-    Random, Tolerance, eigenvalues, place_observer, spectral_distance,
+    Random, Tolerance, eigenvalues, observable_quotient, place_observer, spectral_distance,
 };
 use exact::{Root, pole_error};
 use nalgebra::{DMatrix, dmatrix};
@@ -182,6 +182,28 @@ proptest! {
         let poles = eigenvalues(&a).unwrap();
         let found = place(&a, &c, &poles).unwrap();
         prop_assert!(found.relative_error.unwrap() < 1e-9, "{:?}", found);
+    }
+
+    #[test]
+    fn sparse_data_with_any_structure_are_placed(seed in any::<u64>(), n in 1_usize..=6, p in 1_usize..=3) {
+        let mut random = Random::new(seed);
+        let mut sparse = |rows: usize| DMatrix::from_fn(rows, n, |_, _| match random.uniform() {
+            u if u < 0.2 => 1.0,
+            u if u < 0.35 => -1.0,
+            _ => 0.0,
+        });
+        let (a, c) = (sparse(n), sparse(p));
+        let seen = observable_quotient(&a, &c, &Tolerance::default()).unwrap().basis.ncols();
+        let poles = spread_poles(&mut random, seen);
+        let found = place(&a, &c, &poles).unwrap();
+        prop_assert_eq!(found.fixed_modes.len(), n - seen);
+        prop_assert_eq!(found.gain.shape(), (n, p));
+        let allowed = 1e-8_f64.max(1e-11 * found.condition);
+        prop_assert!(found.relative_error.is_none_or(|e| e < allowed), "{:?}", found);
+        if seen == n && found.relative_error.is_none() {
+            let exact = exact_error(&a, &c, &found.gain, &poles);
+            prop_assert!(exact < 1e-9_f64.max(100.0 * found.expected_accuracy), "exact {:e}: {:?}", exact, found);
+        }
     }
 
     #[test]

@@ -98,6 +98,25 @@ fn hidden_pair_close_to_the_real_axis_is_found() {
     }
 }
 
+/// A block of four scatters its eigenvalues by more than a cluster is wide; only its first vector is hidden.
+#[test]
+fn eigenvector_of_a_scattered_jordan_block_is_found() {
+    let a = dmatrix![
+        0.0, 0.0, 1.0, 0.0, 0.0; 1.0, 1.0, 0.0, 0.0, 0.0; 0.0, 0.0, 1.0, 0.0, 0.0; -1.0, 1.0, -1.0, 1.0, 0.0;
+        -1.0, -1.0, 1.0, -1.0, 1.0
+    ];
+    let c = dmatrix![0.0, -1.0, 0.0, -1.0, 0.0];
+    let found = observable_quotient(&a, &c, &Tolerance::default()).unwrap();
+    assert_eq!(found.basis.ncols(), 4, "the fifth state is not seen: {:?}", found.modes);
+    let fixed: Vec<_> = found.modes.iter().filter(|m| m.unobservable).map(|m| m.value.re).collect();
+    assert!(
+        fixed.len() == 1 && (fixed[0] - 1.0).abs() < 1e-9,
+        "one mode, not one per scattered member: {fixed:?}"
+    );
+    let total: usize = found.modes.iter().map(|m| m.multiplicity).sum();
+    assert_eq!(total, 5, "every state counts once: {:?}", found.modes);
+}
+
 #[test]
 fn without_outputs_every_mode_is_fixed() {
     let a = dmatrix![0.0, 1.0; -1.0, 0.0];

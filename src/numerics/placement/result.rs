@@ -22,7 +22,7 @@ pub struct PlacementOptions {
 
 impl Default for PlacementOptions {
     fn default() -> Self {
-        Self { seed: 1, starts: 10, sweeps: 12 }
+        Self { seed: 1, starts: 20, sweeps: 12 }
     }
 }
 
