@@ -583,3 +583,75 @@ fn comparing_designs_does_not_change_the_plant() {
     let rms = observed.rms(e, 1.0);
     assert!(rms.len() == 4 && rms.iter().all(|r| *r < 0.2), "after a second the errors are small: {rms:?}");
 }
+
+/// Numbers in -1..1 from a seed.
+fn draw(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    (*seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+}
+
+#[test]
+fn any_system_gives_a_trajectory_or_a_reason() {
+    let mut seed = 2026;
+    let (mut whole, mut cut, mut refused, mut failed) = (0, 0, 0, 0);
+    for case in 0..150 {
+        let n = 1 + case % 6;
+        let mut any = |rows: usize, columns: usize, size: f64| {
+            DMatrix::from_fn(rows, columns, |_, _| size * draw(&mut seed))
+        };
+        let size = [1.0, 1e-6, 1e3, 1e8][case / 6 % 4];
+        let mut e = any(n, n, 1.0);
+        e.columns_mut(0, case % 3 % n).fill(0.0);
+        let system = DescriptorSystem {
+            time: if case % 10 == 0 { TimeDomain::Discrete } else { TimeDomain::Continuous },
+            E: e,
+            A: any(n, n, size),
+            B: any(n, 2, 1.0),
+            C: any(2, n, 1.0),
+            D: any(n, 1, size),
+            F: any(2, 1, 1.0),
+        };
+        let uncertainty = Uncertainty {
+            amplitude: any(n, n, 0.3),
+            frequency: any(n, n, [1.0, 30.0][case % 2]),
+            scale: f64::from(u8::from(case % 3 != 0)),
+        };
+        let mut observer = output_only(n, 2, 2, any(3, 3, size), any(3, 2, size));
+        observer.P = any(n, 3, 1.0);
+        let jumps: Vec<f64> = any(4, 1, 2.0).iter().flat_map(|t| [*t, t + 1e-12, t + 1e-9]).collect();
+        let steps = |t: f64, out: &mut [f64]| {
+            out.fill(jumps.iter().filter(|jump| t >= **jump).count() as f64);
+        };
+        let kinks: Vec<f64> = any(20, 1, 2.0).iter().copied().chain([0.5, 1.0]).collect();
+        let inputs =
+            Inputs { known: &steps, unknown: &unknown_004, noise: &steps, jumps: &jumps, kinks: &kinks };
+        let start = any(n, 1, 1.0);
+        let horizon = if case % 10 == 0 { 30.0 } else { 1.0 };
+        let found = Plant::new(&system, Some(&uncertainty), &Tolerance::default()).and_then(|plant| {
+            simulate(&plant, &[(&observer, &[0.0; 3])], start.as_slice(), &inputs, span(horizon, 31))
+        });
+        match found {
+            Ok(trajectory) => {
+                let finite = trajectory.x.iter().chain(trajectory.y.iter()).all(|x| x.is_finite());
+                assert!(finite, "case {case}: a trajectory is finite");
+                assert_eq!(trajectory.x.ncols(), trajectory.t.len(), "case {case}: a column per instant");
+                assert!(
+                    trajectory.t.len() == 31 || trajectory.note.is_some(),
+                    "case {case}: cut without a note"
+                );
+                if trajectory.note.is_some() { cut += 1 } else { whole += 1 }
+            }
+            Err(SimulationError::Integration(error)) => {
+                println!("case {case}: {error}");
+                failed += 1;
+            }
+            Err(error) => {
+                assert!(!error.to_string().is_empty(), "case {case}: a reason in words");
+                refused += 1;
+            }
+        }
+    }
+    println!("{whole} whole, {cut} cut off, {refused} refused, {failed} failed");
+    assert!(whole > 20 && cut > 5 && refused > 5, "{whole} whole, {cut} cut off, {refused} refused");
+    assert!(failed <= 5, "the stiff solver failed {failed} times");
+}

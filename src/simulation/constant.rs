@@ -40,6 +40,8 @@ pub(super) fn run(
         let mut now = segment.start;
         for (index, stop) in segment.stops() {
             if stop > now {
+                // a rough stretch does not slow down what follows
+                parts = (parts / 2).max(1);
                 let inputs = loop {
                     let length = (stop - now) / parts as f64;
                     let (inputs, fits) = follow(joint, segment, (now, length, parts), &mut scale)?;

@@ -64,7 +64,7 @@ pub enum SimulationError {
         what: String,
     },
     /// A signal that has no finite value at some time.
-    #[error("{signal} {} is not a finite number at t = {time}", index + 1)]
+    #[error("{signal} {} is not a finite number at t = {time:?}", index + 1)]
     Signal {
         /// Which vector of signals.
         signal: &'static str,

@@ -61,7 +61,8 @@ impl Plant {
     /// [`SimulationError`] for a malformed system or uncertainty, a system that is not square, or not of index 1.
     ///
     /// # Source
-    /// S. L. Campbell, Singular systems of differential equations, 1980, chapter 3 (index 1 by elimination).
+    /// Singular value coordinates: D. J. Bender, A. J. Laub, The linear-quadratic optimal regulator for descriptor
+    /// systems, IEEE Transactions on Automatic Control 32, 1987.
     pub fn new(
         system: &DescriptorSystem,
         uncertainty: Option<&Uncertainty>,

@@ -122,7 +122,7 @@ impl<'a> Record<'a> {
     /// Ends the record before time `t`.
     pub(super) fn close(&mut self, t: f64, what: &str) {
         self.note = Some(format!(
-            "stopped before t = {t}: {what} exceeds {LARGEST_STATE:e}; plant or observer is unstable"
+            "stopped before t = {t:?}: {what} exceeds {LARGEST_STATE:e}; plant or observer seems unstable"
         ));
     }
 

@@ -69,7 +69,7 @@ pub(super) fn run(
     let options = StiffOptions {
         relative: RELATIVE,
         absolute: usual_sizes(joint, segments, &start).into_iter().map(|s| ABSOLUTE * s).collect(),
-        smallest_step: 1e-16 * horizon,
+        smallest_step: 1e-20 * horizon,
         limit: MOST_STEPS,
     };
     let (mut w, mut steps) = (start, 0);
@@ -143,7 +143,7 @@ fn explained(
 /// The largest value of each state in the nominal motion, as its usual size.
 fn usual_sizes(joint: &Joint<'_>, segments: &[Segment], start: &DVector<f64>) -> Vec<f64> {
     /// States that hardly move are measured by this part of the largest.
-    const LEAST: f64 = 1e-3;
+    const LEAST: f64 = 1e-6;
     let nominal = joint.plant.nominal();
     let calm = Joint { plant: &nominal, observers: joint.observers.clone(), inputs: joint.inputs };
     let mut sizes = start.abs();

@@ -89,7 +89,7 @@ fn balance(matrix: &DMatrix<f64>) -> (DMatrix<f64>, Vec<f64>) {
     let (mut a, mut scale) = (matrix.clone(), vec![1.0; n]);
     for _ in 0..SWEEPS {
         let mut changed = false;
-        for i in 0..n {
+        for (i, own) in scale.iter_mut().enumerate() {
             // the diagonal counts in both: a state that feeds nothing back is scaled down to its own rate, not further
             let column: f64 = a.column(i).iter().map(|x| x.abs()).sum();
             let row: f64 = a.row(i).iter().map(|x| x.abs()).sum();
@@ -98,9 +98,9 @@ fn balance(matrix: &DMatrix<f64>) -> (DMatrix<f64>, Vec<f64>) {
             }
             let factor = (row / column).sqrt().log2().round().exp2();
             let smaller = column * factor + row / factor < 0.95 * (column + row);
-            let scaled = scale[i] * factor;
+            let scaled = *own * factor;
             if smaller && (LARGEST.recip()..LARGEST).contains(&scaled) {
-                scale[i] = scaled;
+                *own = scaled;
                 a.column_mut(i).scale_mut(factor);
                 a.row_mut(i).scale_mut(factor.recip());
                 changed = true;

@@ -44,14 +44,14 @@ pub trait AffineFlow {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum IntegrationError {
     /// The right-hand side has a value that is infinite or not a number.
-    #[error("the derivative is not finite at t = {time}; look for an input that is not defined there")]
+    #[error("the derivative is not finite at t = {time:?}; look for an input that is not defined there")]
     NotFinite {
         /// Time of the evaluation.
         time: f64,
     },
     /// The work limit was reached.
     #[error(
-        "{limit} steps did not reach the end, only t = {time}; shorten the horizon or slow the inputs down"
+        "{limit} steps did not reach the end, only t = {time:?}; shorten the horizon or slow the inputs down"
     )]
     TooManySteps {
         /// Time that was reached.
@@ -60,7 +60,7 @@ pub enum IntegrationError {
         limit: usize,
     },
     /// The solver gave up.
-    #[error("the stiff solver stopped at t = {time}: {reason}")]
+    #[error("the stiff solver stopped at t = {time:?}: {reason}")]
     Solver {
         /// Time that was reached.
         time: f64,

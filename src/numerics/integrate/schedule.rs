@@ -28,7 +28,12 @@ impl Segment {
     pub fn stops(&self) -> Vec<(Option<usize>, f64)> {
         let near = SEPARATION * self.end.abs().max(self.end - self.start);
         let samples = self.samples.iter().map(|(index, t)| (Some(*index), *t));
-        let kinks = self.kinks.iter().filter(|k| self.samples.iter().all(|(_, t)| (t - **k).abs() > near));
+        let apart = |kink: &&f64| {
+            let after = self.samples.partition_point(|(_, t)| t < kink);
+            let neighbours = &self.samples[after.saturating_sub(1)..self.samples.len().min(after + 1)];
+            neighbours.iter().all(|(_, t)| (t - **kink).abs() > near)
+        };
+        let kinks = self.kinks.iter().filter(apart);
         let mut stops: Vec<_> = samples.chain(kinks.map(|k| (None, *k))).collect();
         stops.sort_by(|a, b| a.1.total_cmp(&b.1));
         if stops.last().is_none_or(|last| last.1 < self.end) {
