@@ -7,7 +7,9 @@ mod figures;
 mod import;
 mod import_cells;
 mod import_latex;
+mod json;
 pub mod limits;
+mod link;
 mod matrix_text;
 mod model;
 mod pretty;
@@ -17,6 +19,8 @@ mod write;
 pub use entry::{Entry, EntryMatrix};
 pub use error::DocumentError;
 pub use import::{ImportError, PastedMatrix, matrix_from_text};
+pub use json::to_json;
+pub use link::{LinkError, from_link_fragment, is_link_fragment, to_link_fragment};
 pub use matrix_text::{MatrixSyntax, matrix_to_text};
 pub use model::{
     Coupling, DescriptorData, Document, LipschitzData, Matrix, NetworkData, PlantData, ScenarioData,

@@ -1,18 +1,32 @@
 //! L5: the screen: reads the session and what is derived, returns commands, writes nothing.
 
+pub mod accessibility;
 mod app;
 pub mod figures_panel;
+mod file_menu;
+#[cfg(not(target_arch = "wasm32"))]
+mod icon;
 pub mod observer_panel;
 pub mod plot;
 pub mod pole_plane;
 mod shortcuts;
+mod start;
+#[cfg(target_arch = "wasm32")]
+mod state_report;
 mod status_bar;
 pub mod system_panel;
 pub mod theme;
 mod top_bar;
+mod window;
 
 pub use app::App;
+#[cfg(not(target_arch = "wasm32"))]
+pub use start::open_window;
+#[cfg(target_arch = "wasm32")]
+pub use start::start_page;
+pub use window::Window;
 
+use crate::platform::files::FileRequest;
 use crate::session::{Cell, Command, Edit, Show};
 
 /// What a frame asks for.
@@ -22,6 +36,8 @@ pub struct Output {
     pub commands: Vec<Command>,
     /// Stop the running computation.
     pub cancel: bool,
+    /// Files and links.
+    pub files: Vec<FileRequest>,
 }
 
 impl Output {
