@@ -63,13 +63,17 @@ async function runFile(file, browser, url, tally) {
 async function main([dist, ...names]) {
   if (!dist) throw new Error('which folder? node e2e/run.mjs dist [NAME ...]');
   const files = testFiles(names);
-  const server = await serve(dist);
-  const browser = await launch();
   const tally = new Tally();
+  const server = await serve(dist);
   try {
-    for (const file of files) await runFile(file, browser, server.url, tally);
+    const browser = await launch();
+    try {
+      for (const file of files) await runFile(file, browser, server.url, tally);
+    } finally {
+      await browser.close();
+    }
   } finally {
-    await browser.close();
+    // An open server would keep this program alive for ever.
     await server.close();
   }
   console.log(`${tally.passed} passed, ${tally.failed} failed`);
