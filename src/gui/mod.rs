@@ -1,13 +1,18 @@
 //! L5: the screen: reads the session and what is derived, returns commands, writes nothing.
 
 mod app;
+mod conditions;
 pub mod figures_panel;
+mod formula;
+pub mod matrix_grid;
 pub mod observer_panel;
 pub mod plot;
 pub mod pole_plane;
+mod result;
 mod shortcuts;
 mod status_bar;
 pub mod system_panel;
+pub mod text_field;
 pub mod theme;
 mod top_bar;
 
