@@ -55,7 +55,7 @@ impl Ask<'_> {
             TimeDomain::Discrete => "rank [zE-A; C] = n for all |z| >= 1",
         };
         let mut result = condition("Def. 1", "R-detectability", formula);
-        result.id = "004-R-detectable".to_owned();
+        "004-R-detectable".clone_into(&mut result.id);
         result.source = format!("{PAPER}, Definition 1; Darouach and Boutayeb 1995");
         self.fill_modes(&mut result, found, "[sE-A; C]");
         result
