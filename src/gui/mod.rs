@@ -2,19 +2,24 @@
 
 pub mod accessibility;
 mod app;
+mod conditions;
 pub mod figures_panel;
 mod file_menu;
+mod formula;
 #[cfg(not(target_arch = "wasm32"))]
 mod icon;
+pub mod matrix_grid;
 pub mod observer_panel;
 pub mod plot;
 pub mod pole_plane;
+mod result;
 mod shortcuts;
 mod start;
 #[cfg(target_arch = "wasm32")]
 mod state_report;
 mod status_bar;
 pub mod system_panel;
+pub mod text_field;
 pub mod theme;
 mod top_bar;
 mod window;
