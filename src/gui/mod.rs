@@ -1,13 +1,16 @@
 //! L5: the screen: reads the session and what is derived, returns commands, writes nothing.
 
 mod app;
+mod curve;
 pub mod figures_panel;
 pub mod observer_panel;
 pub mod plot;
 pub mod pole_plane;
+pub mod scenario;
 mod shortcuts;
 mod status_bar;
 pub mod system_panel;
+pub mod text_field;
 pub mod theme;
 mod top_bar;
 
