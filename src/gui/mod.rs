@@ -2,6 +2,7 @@
 
 mod app;
 mod conditions;
+mod curve;
 pub mod figures_panel;
 mod formula;
 pub mod matrix_grid;
@@ -9,6 +10,7 @@ pub mod observer_panel;
 pub mod plot;
 pub mod pole_plane;
 mod result;
+pub mod scenario;
 mod shortcuts;
 mod status_bar;
 pub mod system_panel;
