@@ -3,6 +3,8 @@
 mod cursor;
 mod entry;
 mod error;
+mod export_csv;
+mod export_svg;
 mod figures;
 mod import;
 mod import_cells;
@@ -16,6 +18,8 @@ mod write;
 
 pub use entry::{Entry, EntryMatrix};
 pub use error::DocumentError;
+pub use export_csv::{figure_to_csv, trajectory_to_csv};
+pub use export_svg::figure_to_svg;
 pub use import::{ImportError, PastedMatrix, matrix_from_text};
 pub use matrix_text::{MatrixSyntax, matrix_to_text};
 pub use model::{
