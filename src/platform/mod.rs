@@ -1,5 +1,8 @@
 //! L4: native and web: where computations run, files, clipboard, storage.
 
+#[cfg(not(target_arch = "wasm32"))]
+pub mod native;
+
 use crate::session::{JobReply, JobRequest};
 
 /// Runs computations away from the screen: a thread natively, a worker in the browser.
