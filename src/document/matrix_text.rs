@@ -88,6 +88,11 @@ fn joined(matrix: &DMatrix<f64>, syntax: MatrixSyntax, between: &str, row: &str)
     (0..matrix.nrows()).map(line).collect::<Vec<_>>().join(row)
 }
 
+/// A number in comma-separated values.
+pub(super) fn csv_number(x: f64) -> String {
+    number(x, MatrixSyntax::Csv)
+}
+
 /// The shortest digits that read back to the same number, as the notation wants them.
 fn number(x: f64, syntax: MatrixSyntax) -> String {
     if !x.is_finite() {

@@ -3,6 +3,8 @@
 mod cursor;
 mod entry;
 mod error;
+mod export_csv;
+mod export_svg;
 mod figures;
 mod import;
 mod import_cells;
@@ -14,10 +16,13 @@ mod matrix_text;
 mod model;
 mod pretty;
 mod read;
+pub mod report;
 mod write;
 
 pub use entry::{Entry, EntryMatrix};
 pub use error::DocumentError;
+pub use export_csv::{figure_to_csv, trajectory_to_csv};
+pub use export_svg::figure_to_svg;
 pub use import::{ImportError, PastedMatrix, matrix_from_text};
 pub use json::to_json;
 pub use link::{LinkError, from_link_fragment, is_link_fragment, to_link_fragment};
@@ -35,7 +40,7 @@ use figures::read_figures;
 pub const VERSION: u64 = 1;
 
 /// The known word nearest to a mistyped one, when it is near enough to be meant.
-fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     let distance = |other: &str| edit_distance(&word.to_lowercase(), &other.to_lowercase());
     let near = known.iter().map(|other| (distance(other), *other)).min_by_key(|(d, _)| *d);
     near.filter(|(d, other)| *d <= 1 + other.len() / 4).map(|(_, other)| other)

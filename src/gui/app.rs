@@ -85,9 +85,9 @@ impl App {
         egui::Panel::bottom("status")
             .show(ui, |ui| status_bar::show(ui, &self.session, &self.derived, &mut out));
         if ui.available_width() < theme::NARROW {
-            self.narrow(ui, &mut out)
+            self.narrow(ui, &mut out);
         } else {
-            self.wide(ui, &mut out)
+            self.wide(ui, &mut out);
         }
         self.carry_out(ui.ctx(), out);
     }
@@ -117,11 +117,11 @@ impl App {
             ui.separator();
             match session.view().place {
                 Place::System => {
-                    scroll(ui, "system-scroll", |ui| system_panel::show(ui, session, derived, widgets, out))
+                    scroll(ui, "system-scroll", |ui| system_panel::show(ui, session, derived, widgets, out));
                 }
                 Place::Observer => {
                     scroll(ui, "observer-scroll", |ui| {
-                        observer_panel::show(ui, session, derived, widgets, out)
+                        observer_panel::show(ui, session, derived, widgets, out);
                     });
                 }
                 Place::Figures => figures_panel::show(ui, session, derived, widgets, out),

@@ -21,6 +21,7 @@ pub(super) fn show(
     widgets: &mut Widgets,
     out: &mut Output,
 ) {
+    let sheet = Sheet { session, data };
     let (rows, columns) = data.matrix(matrix).shape();
     ui.horizontal(|ui| {
         ui.label(RichText::new(matrix.letter()).strong().size(16.0));
@@ -44,7 +45,7 @@ pub(super) fn show(
     egui::ScrollArea::horizontal().id_salt(("grid", matrix.letter())).auto_shrink([true, true]).show(
         ui,
         |ui| {
-            cells(ui, session, data, matrix, widgets, out);
+            cells(ui, sheet, matrix, widgets, out);
         },
     );
 }
@@ -56,14 +57,15 @@ const BRACKET: f32 = 8.0;
 /// Room for the names of the columns.
 const HEADER: f32 = 14.0;
 
-fn cells(
-    ui: &mut Ui,
-    session: &Session,
-    data: &DescriptorData,
-    matrix: Matrix,
-    widgets: &mut Widgets,
-    out: &mut Output,
-) {
+/// The document's matrices and what was typed into their cells.
+#[derive(Clone, Copy)]
+struct Sheet<'a> {
+    session: &'a Session,
+    data: &'a DescriptorData,
+}
+
+fn cells(ui: &mut Ui, sheet: Sheet<'_>, matrix: Matrix, widgets: &mut Widgets, out: &mut Output) {
+    let Sheet { data, .. } = sheet;
     let (rows, columns) = data.matrix(matrix).shape();
     let wanted = theme::CELL_WIDTH;
     let fitting = (ui.available_width() - 2.0 * BRACKET) / columns as f32 - GAP;
@@ -82,7 +84,7 @@ fn cells(
             let corner = body.min
                 + vec2(BRACKET + column as f32 * (width + GAP), 1.0 + row as f32 * (ROW_HEIGHT + GAP));
             let place = Rect::from_min_size(corner, vec2(width, ROW_HEIGHT));
-            one_cell(ui, place, session, data, cell, widgets, out);
+            one_cell(ui, place, sheet, cell, widgets, out);
         }
     }
 }
@@ -121,15 +123,8 @@ fn brackets(ui: &Ui, rect: Rect) {
     }
 }
 
-fn one_cell(
-    ui: &mut Ui,
-    place: Rect,
-    session: &Session,
-    data: &DescriptorData,
-    cell: Cell,
-    widgets: &mut Widgets,
-    out: &mut Output,
-) {
+fn one_cell(ui: &mut Ui, place: Rect, sheet: Sheet<'_>, cell: Cell, widgets: &mut Widgets, out: &mut Output) {
+    let Sheet { session, data } = sheet;
     let Some(entry) = data.matrix(cell.matrix).entry(cell.row, cell.column) else { return };
     let draft = session.draft(&Field::Cell(cell));
     let id = cell_id(cell);

@@ -3,6 +3,7 @@
 pub mod accessibility;
 mod app;
 mod conditions;
+mod curve;
 pub mod figures_panel;
 mod file_menu;
 mod formula;
@@ -13,6 +14,7 @@ pub mod observer_panel;
 pub mod plot;
 pub mod pole_plane;
 mod result;
+pub mod scenario;
 mod shortcuts;
 mod start;
 #[cfg(target_arch = "wasm32")]

@@ -79,15 +79,6 @@ fn named_matrix(ui: &mut Ui, matrix: &NamedMatrix) {
             }
         });
     });
-    let digits = |x: f64| {
-        let rounded = format!("{x:.4}");
-        let large = x.abs() >= 1e5 || (x != 0.0 && x.abs() < 1e-3);
-        match large {
-            true if x.abs() < 1e-12 => "0".to_owned(),
-            true => format!("{x:.3e}"),
-            false => rounded.trim_end_matches('0').trim_end_matches('.').replace("-0", "-0").clone(),
-        }
-    };
     egui::ScrollArea::horizontal().id_salt(("named", &matrix.name)).auto_shrink([false, true]).show(
         ui,
         |ui| {
@@ -112,4 +103,17 @@ fn named_matrix(ui: &mut Ui, matrix: &NamedMatrix) {
             ),
         );
     }
+}
+
+/// Four decimals, or powers of ten where they would not show the number.
+fn digits(x: f64) -> String {
+    const NOTHING: f64 = 1e-12;
+    if x.abs() < NOTHING {
+        return "0".to_owned();
+    }
+    if x.abs() >= 1e5 || x.abs() < 1e-3 {
+        return format!("{x:.3e}");
+    }
+    let fixed = format!("{x:.4}");
+    fixed.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

@@ -85,7 +85,7 @@ mod tests {
                     let found = text_field(
                         ui,
                         &mut state.widgets,
-                        (Id::new(names[k]), names[k]),
+                        (Id::unique(names[k]), names[k]),
                         &state.values[k].clone(),
                         draft.as_ref(),
                         80.0,

@@ -3,12 +3,14 @@
 mod compute;
 mod errata;
 mod figure;
+mod palette;
 mod recipe;
 pub mod standard;
 
 pub use compute::{Problem, compute_figure};
 pub use errata::{Erratum, errata};
 pub use figure::{Axis, FigureSpec, Panel, Role, Series};
+pub use palette::{PALETTE, colour};
 pub use recipe::{
     DesignPatch, FigureRecipe, PanelRecipe, Quantity, RunRecipe, ScenarioPatch, SeriesRecipe, Transfer,
 };

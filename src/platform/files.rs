@@ -78,7 +78,7 @@ pub fn linked() -> Option<String> {
 pub fn files(wake: impl Fn() + Send + Sync + 'static) -> Box<dyn Files> {
     let inbox = Inbox::new(wake);
     #[cfg(not(target_arch = "wasm32"))]
-    return Box::new(super::native_files::NativeFiles::new(inbox));
+    return Box::new(super::native::dialogs::Dialogs::new(inbox));
     #[cfg(target_arch = "wasm32")]
     Box::new(super::web::PageFiles::new(inbox))
 }

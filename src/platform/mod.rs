@@ -4,9 +4,7 @@
 pub mod files;
 pub mod message;
 #[cfg(not(target_arch = "wasm32"))]
-mod native;
-#[cfg(all(feature = "gui", not(target_arch = "wasm32")))]
-mod native_files;
+pub mod native;
 mod synchronous;
 mod timed;
 #[cfg(all(feature = "gui", target_arch = "wasm32"))]

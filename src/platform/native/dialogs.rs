@@ -5,16 +5,16 @@ use std::io::Read as _;
 use std::path::Path;
 use std::thread;
 
-use super::files::{Arrival, Files, Inbox, SavedFile, arrived, too_large};
 use crate::document::limits::MAX_BYTES;
+use crate::platform::files::{Arrival, Files, Inbox, SavedFile, arrived, too_large};
 
 /// Dialogs of the desktop.
-pub(super) struct NativeFiles {
+pub(in crate::platform) struct Dialogs {
     inbox: Inbox,
 }
 
-impl NativeFiles {
-    pub(super) fn new(inbox: Inbox) -> Self {
+impl Dialogs {
+    pub(in crate::platform) fn new(inbox: Inbox) -> Self {
         Self { inbox }
     }
 
@@ -31,7 +31,7 @@ impl NativeFiles {
     }
 }
 
-impl Files for NativeFiles {
+impl Files for Dialogs {
     fn open(&mut self) {
         self.in_thread(|| {
             let dialog =

@@ -5,12 +5,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::thread;
 
-use super::Runner;
-use super::timed::perform_timed;
+use crate::platform::Runner;
+use crate::platform::timed::perform_timed;
 use crate::session::{JobReply, JobRequest, Outcome};
 
 /// Runs each computation in a thread of its own, so that one that is slow to stop keeps nobody waiting.
-pub(super) struct ThreadRunner {
+pub(in crate::platform) struct ThreadRunner {
     wake: Arc<dyn Fn() + Send + Sync>,
     running: Option<Running>,
     elapsed_ms: Option<f64>,
@@ -30,7 +30,7 @@ struct Sent {
 }
 
 impl ThreadRunner {
-    pub(super) fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
+    pub(in crate::platform) fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
         Self { wake: Arc::new(wake), running: None, elapsed_ms: None }
     }
 }

@@ -1,0 +1,108 @@
+//! A design, or why there is none, as JSON.
+
+use serde_json::{Map, Value, json};
+
+use super::{complexes, matrix, number};
+use crate::numerics::{Placement, PlacementMethod};
+use crate::observer::{Assessment, Check, Design, DesignError, LinearObserver, Verification};
+
+/// The outcome of a choice: `verified`, `not verified`, `does not exist` or `bad input`.
+pub(super) fn design(assessment: &Assessment) -> Value {
+    let choice = &assessment.choice;
+    let mut map = Map::new();
+    let mut put = |key: &str, value: Value| {
+        map.insert(key.to_owned(), value);
+    };
+    let verdict = match &assessment.outcome {
+        Ok(design) if design.verification.verified() => "verified",
+        Ok(_) => "not verified",
+        Err(error) if error.is_bad_input() => "bad input",
+        Err(_) => "does not exist",
+    };
+    put("verdict", json!(verdict));
+    put("title", json!(assessment.outcome.as_ref().ok().map(|design| &design.title)));
+    put("method", json!(choice.method.key()));
+    put("order", json!(choice.order.key()));
+    put("scale", number(choice.scale));
+    put("seed", json!(choice.seed));
+    match &assessment.outcome {
+        Ok(design) => found(&mut map, design),
+        Err(error) => missing(&mut map, error),
+    }
+    Value::Object(map)
+}
+
+fn missing(map: &mut Map<String, Value>, error: &DesignError) {
+    map.insert("error".to_owned(), json!(error.to_string()));
+    let condition = match error {
+        DesignError::Condition { id, .. } => Some(id),
+        DesignError::Unsuitable(_)
+        | DesignError::TooFewPoles { .. }
+        | DesignError::Poles(_)
+        | DesignError::Numerics(_) => None,
+    };
+    map.insert("failed_condition".to_owned(), json!(condition));
+}
+
+fn found(map: &mut Map<String, Value>, design: &Design) {
+    let mut put = |key: &str, value: Value| {
+        map.insert(key.to_owned(), value);
+    };
+    let matrices: Map<String, Value> =
+        design.matrices.iter().map(|named| (named.name.clone(), matrix(&named.value))).collect();
+    let meanings: Map<String, Value> =
+        design.matrices.iter().map(|named| (named.name.clone(), json!(named.meaning))).collect();
+    put("order_number", json!(design.observer.order()));
+    put("matrices", Value::Object(matrices));
+    put("meanings", Value::Object(meanings));
+    put("observer", observer(&design.observer));
+    put("spectrum", complexes(&design.verification.spectrum));
+    put("requested", complexes(&design.placement.requested));
+    put("fixed_modes", complexes(&design.placement.fixed_modes));
+    put("placement", placement(&design.placement));
+    put("verification", verification(&design.verification));
+    put("notes", json!(design.notes));
+}
+
+/// `z' = N z + L y + H u,  x_hat = P z + V y + W u,  d_hat = Q z + R y + S u`.
+fn observer(observer: &LinearObserver) -> Value {
+    let LinearObserver { N, L, H, P, V, W, Q, R, S } = observer;
+    let all = [("N", N), ("L", L), ("H", H), ("P", P), ("V", V), ("W", W), ("Q", Q), ("R", R), ("S", S)];
+    Value::Object(all.into_iter().map(|(name, value)| (name.to_owned(), matrix(value))).collect())
+}
+
+fn placement(placement: &Placement) -> Value {
+    let method = match placement.method {
+        PlacementMethod::NothingToPlace => "nothing to place",
+        PlacementMethod::Direct => "direct",
+        PlacementMethod::SingleOutput => "single output",
+        PlacementMethod::NullSpace => "null space",
+    };
+    let warnings: Vec<String> = placement.warnings.iter().map(ToString::to_string).collect();
+    json!({
+        "algorithm": method,
+        "achieved": complexes(&placement.achieved),
+        "relative_error": placement.relative_error.map(number),
+        "condition": number(placement.condition),
+        "expected_accuracy": number(placement.expected_accuracy),
+        "warnings": warnings,
+    })
+}
+
+fn verification(verification: &Verification) -> Value {
+    json!({
+        "verified": verification.verified(),
+        "checks": verification.checks.iter().map(check).collect::<Value>(),
+        "skipped": verification.skipped,
+    })
+}
+
+fn check(check: &Check) -> Value {
+    json!({
+        "name": check.name,
+        "statement": check.statement,
+        "value": number(check.value),
+        "limit": number(check.limit),
+        "passed": check.passed(),
+    })
+}

@@ -1,0 +1,168 @@
+//! Reports of the headless commands as JSON: conditions, designs, properties and trajectories with their evidence.
+//!
+//! Every report has `"descry_report": 1` and the name of its command. Numbers read back to the last bit; what JSON has
+//! no number for is the text `"inf"`, `"-inf"` or `"nan"` (a gap is `"inf"` when nothing is left below it). Complex
+//! numbers are `[real, imaginary]`, matrices are lists of rows. Keys keep their order: same document, same bytes.
+
+mod condition;
+mod design;
+mod figures;
+mod properties;
+mod trajectory;
+
+use nalgebra::DMatrix;
+use serde_json::{Map, Value, json};
+
+use super::entry::number as finite_number;
+use super::model::{Document, PlantData};
+use super::pretty::pretty;
+use crate::numerics::Complex64;
+use crate::observer::{Assessment, Condition, Method};
+use crate::simulation::Trajectory;
+use crate::system::{DescriptorSystem, TimeDomain};
+
+pub use figures::{FigureFiles, WrittenFigure};
+
+/// Version of the reports.
+pub const REPORT_VERSION: u64 = 1;
+
+/// Why no method by pole placement can use a document, if so, as a sentence.
+pub fn unsuitable(document: &Document, system: &DescriptorSystem) -> Option<String> {
+    let lipschitz = matches!(&document.plant, PlantData::Descriptor(data) if data.lipschitz.is_some());
+    if lipschitz {
+        return Some(
+            "the system has a Lipschitz term, which observers by pole placement do not take: remove it from the \
+             document to design for the linear part"
+                .to_owned(),
+        );
+    }
+    (document.design.method == Method::ProportionalIntegral && system.n_unknown_inputs() == 0).then(|| {
+        "the proportional-integral observer estimates an unknown input, but D has no columns: add one, or choose the \
+         proportional observer"
+            .to_owned()
+    })
+}
+
+/// Report of `descry check`: properties of the system and conditions of the chosen method.
+pub fn check_report(document: &Document, system: &DescriptorSystem, conditions: &[Condition]) -> String {
+    let mut map = head("check", document, system);
+    map.insert("properties".to_owned(), properties::properties(system, &document.tolerance));
+    put_conditions(&mut map, conditions);
+    let holds = conditions.iter().all(|condition| !condition.needed || condition.verdict.holds());
+    let unsuitable = unsuitable(document, system);
+    let verdict = match (&unsuitable, holds) {
+        (Some(_), _) => "the method cannot be used",
+        (None, true) => "the needed conditions hold",
+        (None, false) => "a needed condition does not hold",
+    };
+    map.insert("verdict".to_owned(), json!(verdict));
+    map.insert("notes".to_owned(), json!(unsuitable.into_iter().collect::<Vec<String>>()));
+    pretty(&Value::Object(map))
+}
+
+/// Report of `descry design`: conditions, the designs with their matrices, and their verification.
+pub fn design_report(document: &Document, system: &DescriptorSystem, assessment: &Assessment) -> String {
+    let mut map = head("design", document, system);
+    put_conditions(&mut map, &assessment.conditions);
+    map.insert("designs".to_owned(), Value::Array(vec![design::design(assessment)]));
+    pretty(&Value::Object(map))
+}
+
+/// Report of `descry simulate --format json`, on one line.
+pub fn trajectory_report(document: &Document, system: &DescriptorSystem, trajectory: &Trajectory) -> String {
+    let mut map = head("simulate", document, system);
+    trajectory::put(&mut map, trajectory);
+    format!("{}\n", Value::Object(map))
+}
+
+/// Report of `descry figures`: the files that were written, and what could not be made.
+pub fn figures_report(document: &Document, figures: &[WrittenFigure]) -> String {
+    let mut map = Map::new();
+    put_command(&mut map, "figures", document);
+    map.insert("figures".to_owned(), figures.iter().map(figures::figure).collect());
+    pretty(&Value::Object(map))
+}
+
+fn put_command(map: &mut Map<String, Value>, command: &str, document: &Document) {
+    map.insert("descry_report".to_owned(), json!(REPORT_VERSION));
+    map.insert("command".to_owned(), json!(command));
+    map.insert("title".to_owned(), json!(document.title));
+}
+
+/// What every report begins with.
+fn head(command: &str, document: &Document, system: &DescriptorSystem) -> Map<String, Value> {
+    let mut map = Map::new();
+    put_command(&mut map, command, document);
+    let time = match system.time {
+        TimeDomain::Continuous => "continuous",
+        TimeDomain::Discrete => "discrete",
+    };
+    map.insert(
+        "system".to_owned(),
+        json!({
+            "time": time,
+            "states": system.n_states(),
+            "equations": system.n_equations(),
+            "known_inputs": system.n_inputs(),
+            "unknown_inputs": system.n_unknown_inputs(),
+            "outputs": system.n_outputs(),
+        }),
+    );
+    map.insert("method".to_owned(), json!(document.design.method.key()));
+    map.insert("order".to_owned(), json!(document.design.order.key()));
+    map
+}
+
+fn put_conditions(map: &mut Map<String, Value>, conditions: &[Condition]) {
+    map.insert("conditions".to_owned(), conditions.iter().map(condition::condition).collect());
+}
+
+/// A number that reads back exactly, or the text of what JSON has no number for.
+fn number(x: f64) -> Value {
+    if x.is_finite() {
+        return finite_number(x);
+    }
+    json!(if x.is_nan() {
+        "nan"
+    } else if x > 0.0 {
+        "inf"
+    } else {
+        "-inf"
+    })
+}
+
+fn numbers<'a>(values: impl IntoIterator<Item = &'a f64>) -> Value {
+    values.into_iter().map(|x| number(*x)).collect()
+}
+
+fn complex(z: Complex64) -> Value {
+    json!([number(z.re), number(z.im)])
+}
+
+fn complexes<'a>(values: impl IntoIterator<Item = &'a Complex64>) -> Value {
+    values.into_iter().map(|z| complex(*z)).collect()
+}
+
+/// A matrix as a list of rows.
+fn matrix(matrix: &DMatrix<f64>) -> Value {
+    matrix.row_iter().map(|row| row.iter().map(|x| number(*x)).collect::<Value>()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_finite_is_a_text() {
+        assert_eq!(numbers(&[f64::INFINITY, f64::NEG_INFINITY, f64::NAN]), json!(["inf", "-inf", "nan"]));
+    }
+
+    #[test]
+    fn numbers_read_back_to_the_last_bit() {
+        for x in [1.0 / 3.0, -0.0, 1e-310, f64::MAX, 9.007_199_254_740_993e15, -17.0] {
+            let text = number(x).to_string();
+            let read: f64 = serde_json::from_str(&text).unwrap();
+            assert_eq!(read.to_bits(), x.to_bits(), "{text}");
+        }
+    }
+}

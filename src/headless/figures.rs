@@ -1,0 +1,108 @@
+//! `figures`: every figure of a document as SVG and CSV.
+
+use std::path::Path;
+
+use super::commands::simulated;
+use super::load::{Problem, load};
+use super::{Answer, DONE, Files, REFUSED, Refusal, Source};
+use crate::document::report::{FigureFiles, WrittenFigure, figures_report, unsuitable};
+use crate::document::{Document, figure_to_csv, figure_to_svg, nearest};
+use crate::paper::{self, FigureSpec, compute_figure, standard};
+
+/// A figure before it is written: key, title, and the figure or why there is none.
+type Computed = (String, String, Result<FigureSpec, String>);
+
+/// Writes the figures and lists the files.
+pub(super) fn figures(
+    source: &Source,
+    out: &Path,
+    only: Option<&str>,
+    files: &dyn Files,
+) -> Result<Answer, Refusal> {
+    let problem = load(source, files)?;
+    let chosen = |id: &str| only.is_none_or(|only| only == id);
+    let computed = computed(&problem, &chosen)?;
+    if let (Some(only), true) = (only, computed.is_empty()) {
+        return Err(unknown(only, &problem.document));
+    }
+    files.create_folder(out).map_err(|error| {
+        Refusal::bad_input(format!("the folder {} cannot be made: {error}", out.display()))
+    })?;
+    let mut written = Vec::new();
+    let mut remarks = Vec::new();
+    for (id, title, figure) in computed {
+        let outcome = match figure {
+            Ok(figure) => Ok(write(&figure, out, files)?),
+            Err(error) => {
+                remarks.push(format!("figure {id} could not be made: {error}"));
+                Err(error)
+            }
+        };
+        written.push(WrittenFigure { id, title, outcome });
+    }
+    let code = if remarks.is_empty() { DONE } else { REFUSED };
+    Ok(Answer { text: figures_report(&problem.document, &written), remarks, code })
+}
+
+/// The chosen figures of the document, or the standard ones when it has none.
+fn computed(problem: &Problem, chosen: &dyn Fn(&str) -> bool) -> Result<Vec<Computed>, Refusal> {
+    let Problem { document, system } = problem;
+    if document.figures.is_empty() {
+        return standard_figures(problem, chosen);
+    }
+    let scenario = document.scenario(system);
+    let refused = unsuitable(document, system);
+    let problem = paper::Problem {
+        system,
+        design: &document.design,
+        scenario: &scenario,
+        tolerance: &document.tolerance,
+    };
+    let recipes = document.figures.iter().filter(|recipe| chosen(&recipe.id));
+    let figure = |recipe: &paper::FigureRecipe| match &refused {
+        Some(why) if is_lipschitz(document) => Err(why.clone()),
+        _ => compute_figure(&problem, recipe),
+    };
+    Ok(recipes.map(|recipe| (recipe.id.clone(), recipe.title.clone(), figure(recipe))).collect())
+}
+
+fn is_lipschitz(document: &Document) -> bool {
+    matches!(&document.plant, crate::document::PlantData::Descriptor(data) if data.lipschitz.is_some())
+}
+
+fn standard_figures(problem: &Problem, chosen: &dyn Fn(&str) -> bool) -> Result<Vec<Computed>, Refusal> {
+    let (design, trajectory) = simulated(problem)?;
+    let time = problem.system.time;
+    let mut figures = vec![
+        standard::states(&trajectory, time),
+        standard::errors(&trajectory, time),
+        standard::unknown_inputs(&trajectory, time),
+    ];
+    figures.extend(standard::bode(&problem.system, &design));
+    figures.retain(|figure| chosen(&figure.id));
+    Ok(figures.into_iter().map(|figure| (figure.id.clone(), figure.title.clone(), Ok(figure))).collect())
+}
+
+fn unknown(only: &str, document: &Document) -> Refusal {
+    let mut ids: Vec<&str> = document.figures.iter().map(|recipe| recipe.id.as_str()).collect();
+    if ids.is_empty() {
+        ids = vec!["states", "errors", "unknown-input", "bode"];
+    }
+    let hint = nearest(only, &ids).map_or(String::new(), |near| format!("; did you mean \"{near}\"?"));
+    Refusal::bad_input(format!("there is no figure \"{only}\": the ids are {}{hint}", ids.join(", ")))
+}
+
+fn write(figure: &FigureSpec, out: &Path, files: &dyn Files) -> Result<FigureFiles, Refusal> {
+    let save = |extension: &str, text: &str| -> Result<String, Refusal> {
+        let path = out.join(format!("{}.{extension}", figure.id));
+        files
+            .write(&path, text.as_bytes())
+            .map_err(|error| Refusal::bad_input(format!("{} cannot be written: {error}", path.display())))?;
+        Ok(path.display().to_string())
+    };
+    Ok(FigureFiles {
+        svg: save("svg", &figure_to_svg(figure))?,
+        csv: save("csv", &figure_to_csv(figure))?,
+        notes: figure.notes.clone(),
+    })
+}

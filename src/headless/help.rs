@@ -1,0 +1,31 @@
+//! What `descry help` says.
+
+/// Version of the program.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// The commands.
+pub const HELP: &str = "\
+descry: an interactive observatory for descriptor systems
+
+usage:
+  descry                                   opens the window
+  descry check FILE                        properties of the system and conditions of the chosen method, as JSON
+  descry design FILE                       conditions, design and its verification, as JSON
+  descry simulate FILE [--format csv|json] plant and observer over time
+  descry figures FILE --out DIR [--only ID]
+                                           writes ID.svg and ID.csv for each figure, lists them as JSON
+  descry examples                          lists the examples
+  descry examples KEY [--out FILE]         writes an example out, to start from
+  descry help, --help, --version
+
+FILE is a document; `-` reads standard input, `example:KEY` takes an example.
+A document without figures has the standard ones: states, errors, unknown-input, bode.
+
+exit codes:
+  0  the design exists and is verified (check: all needed conditions hold)
+  1  it does not exist or is not verified, or a simulation or figure could not be made
+  2  bad input: file, document, arguments, or a list of poles that does not fit
+
+Reports have \"descry_report\": 1. Numbers read back exactly; \"inf\", \"-inf\" and \"nan\" stand for what JSON has no
+number for (a gap is \"inf\" when nothing is left below it); complex numbers are [real, imaginary].
+";
