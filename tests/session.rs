@@ -13,6 +13,14 @@ use descry::session::{
 use descry::system::TimeDomain;
 use proptest::prelude::*;
 
+/// Documents of every kind: partitioned, rectangular, with a Lipschitz term, a network.
+const DOCUMENTS: [&str; 4] = [
+    include_str!("documents/000-partition.json"),
+    include_str!("documents/001-wide.json"),
+    include_str!("documents/002-lipschitz.json"),
+    include_str!("documents/003-network.json"),
+];
+
 fn session() -> Session {
     Session::with_first_example().unwrap()
 }
@@ -242,6 +250,30 @@ fn one_more_sensor_mends_the_unseen_impulse() {
     assert!(mended.verified(), "with the sensor: {:?}", mended.assessment.map(|a| a.outcome.err()));
 }
 
+#[test]
+fn a_network_keeps_its_matrices_and_takes_the_rest() {
+    let mut session = session();
+    update(&mut session, Command::Open { text: DOCUMENTS[3].to_owned() });
+    let plant = session.document().plant.clone();
+    assert!(matches!(plant, PlantData::Network(_)), "a network is open");
+    type_into(&mut session, cell(Matrix::A, 0, 0), "1");
+    assert!(session.message().unwrap().error, "it says why nothing changed");
+    for one in [
+        Edit::Size { of: Size::States, grow: true },
+        Edit::Initial { state: 0, text: "1".to_owned() },
+        Edit::Signal { list: SignalList::Unknown, index: 0, text: "sin(t)".to_owned() },
+        Edit::UncertaintyScale { scale: 2.0, done: true },
+        Edit::UncertaintyCell { row: 0, column: 0, frequency: true, text: "1".to_owned() },
+        Edit::NoiseLevel { deviation: 0.1, done: true },
+    ] {
+        let name = format!("{one:?}");
+        edit(&mut session, one);
+        check(&session, &name);
+    }
+    assert_eq!(session.document().plant, plant, "the network is as it was");
+    let _found = analysis(&session);
+}
+
 fn reply(request: &JobRequest) -> JobReply {
     perform(request, &mut |_, _| true).unwrap()
 }
@@ -422,12 +454,13 @@ fn a_command() -> impl Strategy<Value = Command> {
         1 => Just(Command::Redo),
         1 => prop::sample::select(keys).prop_map(|key| Command::OpenExample { key }),
         1 => ".{0,30}".prop_map(|text| Command::Open { text }),
+        2 => prop::sample::select(DOCUMENTS.to_vec()).prop_map(|text| Command::Open { text: text.to_owned() }),
         1 => prop::sample::select(Tab::ALL.to_vec()).prop_map(|tab| Command::Show(Show::Tab(tab))),
     ]
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 96, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn no_sequence_of_commands_breaks_a_session(commands in prop::collection::vec(a_command(), 1..40)) {

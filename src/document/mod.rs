@@ -31,7 +31,7 @@ pub use model::{
     Coupling, DescriptorData, Document, LipschitzData, Matrix, NetworkData, PlantData, ScenarioData,
     UncertaintyData,
 };
-pub use read::read_document;
+pub use read::{Sizes, read_document};
 pub use write::{write_document, write_document_compact};
 
 use figures::read_figures;

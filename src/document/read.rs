@@ -73,17 +73,23 @@ impl ScenarioData {
 }
 
 /// Sizes that signals and initial states must match.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Sizes {
-    pub(super) states: usize,
-    pub(super) equations: usize,
-    pub(super) inputs: usize,
-    pub(super) unknown: usize,
-    pub(super) outputs: usize,
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sizes {
+    /// States.
+    pub states: usize,
+    /// Equations.
+    pub equations: usize,
+    /// Known inputs.
+    pub inputs: usize,
+    /// Unknown inputs.
+    pub unknown: usize,
+    /// Outputs.
+    pub outputs: usize,
 }
 
 impl Sizes {
-    fn of(plant: &PlantData) -> Self {
+    /// The sizes of a system; those of a network as a whole.
+    pub fn of(plant: &PlantData) -> Self {
         match plant {
             PlantData::Descriptor(data) => {
                 let [e, _, b, c, d, _] = data.matrices.each_ref().map(EntryMatrix::shape);

@@ -175,6 +175,9 @@ impl Sizes {
         if !still_fits {
             data.partition.clear();
         }
+        // a nonlinearity of a state that is gone has no meaning any more
+        let understood = |f: &String| crate::system::nonlinearity(f, states).is_ok();
+        data.lipschitz.take_if(|lipschitz| !lipschitz.f.iter().all(understood));
         if let Some(lipschitz) = &mut data.lipschitz {
             lipschitz.G = lipschitz.G.resized(equations, lipschitz.f.len());
             lipschitz.F_L = lipschitz.F_L.resized(lipschitz.F_L.shape().0, states);

@@ -4,6 +4,7 @@ mod analysis;
 mod command;
 mod derived;
 mod edit_plant;
+mod edit_scenario;
 mod history;
 mod job;
 mod poles;

@@ -2,13 +2,12 @@
 
 use std::sync::Arc;
 
-use super::command::{Cell, Command, Edit, Show, SignalList};
+use super::command::{Cell, Command, Edit, Show};
 use super::state::{Draft, Field, Message, Session};
-use super::{edit_plant, poles};
-use crate::document::{Document, Entry, EntryMatrix, PlantData, UncertaintyData, limits, read_document};
+use super::{edit_plant, edit_scenario, poles};
+use crate::document::{Document, EntryMatrix, PlantData, limits, read_document};
 use crate::numerics::Complex64;
 use crate::paper::example;
-use crate::system::Signal;
 
 /// Carries out a command.
 ///
@@ -219,120 +218,13 @@ fn change(document: &mut Document, edit: Edit) -> Edited {
         | Edit::Samples(_)
         | Edit::UncertaintyScale { .. }
         | Edit::UncertaintyCell { .. }
-        | Edit::NoiseLevel { .. } => return change_scenario(document, edit),
+        | Edit::NoiseLevel { .. } => return edit_scenario::change(document, edit),
     }
     Edited::Done
 }
 
 fn clipped(text: String) -> String {
     if text.len() <= limits::MAX_TEXT { text } else { text.chars().take(limits::MAX_TEXT / 4).collect() }
-}
-
-fn change_scenario(document: &mut Document, edit: Edit) -> Edited {
-    let counts = Counts::of(document);
-    let scenario = &mut document.scenario;
-    match edit {
-        Edit::Horizon(horizon) if horizon.is_finite() => {
-            scenario.horizon = horizon.clamp(1e-3, limits::MAX_HORIZON);
-        }
-        Edit::Samples(samples) => {
-            let most = usize::try_from(limits::MAX_SAMPLES).unwrap_or(usize::MAX);
-            scenario.samples = samples.clamp(2, most);
-        }
-        Edit::Initial { state, text } => match Entry::typed(&text) {
-            Ok(entry) if state < counts.states => {
-                scenario.x0.resize(counts.states, Entry::number(0.0));
-                scenario.x0[state] = entry;
-            }
-            Ok(_) => {}
-            Err(error) => return Edited::Draft(Field::Initial(state), Draft { text, error }),
-        },
-        Edit::Signal { list, index, text } => match Signal::parse(&text) {
-            Ok(signal) => counts.set_signal(scenario, list, index, signal),
-            Err(error) => {
-                return Edited::Draft(Field::Signal(list, index), Draft { text, error: error.to_string() });
-            }
-        },
-        Edit::UncertaintyScale { scale, .. } if scale.is_finite() => {
-            counts.uncertainty(scenario).scale = scale.clamp(0.0, 1000.0);
-        }
-        Edit::UncertaintyCell { row, column, frequency, text } => match Entry::typed(&text) {
-            Ok(entry) => {
-                let data = counts.uncertainty(scenario);
-                let matrix = if frequency { &mut data.frequency } else { &mut data.amplitude };
-                matrix.set(row, column, entry);
-            }
-            Err(error) => {
-                return Edited::Draft(Field::Uncertainty(row, column, frequency), Draft { text, error });
-            }
-        },
-        Edit::NoiseLevel { deviation, .. } if deviation.is_finite() => {
-            let interval = scenario.horizon / 300.0;
-            let signal = |i: usize| noise_signal(deviation.clamp(0.0, 1e3), interval, i);
-            scenario.noise =
-                if deviation > 0.0 { (0..counts.outputs).filter_map(signal).collect() } else { Vec::new() };
-        }
-        _ => {}
-    }
-    Edited::Done
-}
-
-/// Seeded noise of one standard deviation for output `i`.
-fn noise_signal(deviation: f64, interval: f64, i: usize) -> Option<Signal> {
-    Signal::parse(&format!("{deviation}*noise(t/{interval}, {})", i + 1)).ok()
-}
-
-/// Sizes that lists of signals follow.
-struct Counts {
-    states: usize,
-    equations: usize,
-    inputs: usize,
-    unknown: usize,
-    outputs: usize,
-}
-
-impl Counts {
-    fn of(document: &Document) -> Self {
-        match &document.plant {
-            PlantData::Descriptor(data) => {
-                let [e, _, b, c, d, _] = data.matrices.each_ref().map(EntryMatrix::shape);
-                Self { states: e.1, equations: e.0, inputs: b.1, unknown: d.1, outputs: c.0 }
-            }
-            PlantData::Network(_) => Self { states: 0, equations: 0, inputs: 0, unknown: 0, outputs: 0 },
-        }
-    }
-
-    fn set_signal(
-        &self,
-        scenario: &mut crate::document::ScenarioData,
-        list: SignalList,
-        index: usize,
-        signal: Signal,
-    ) {
-        let (signals, count) = match list {
-            SignalList::Known => (&mut scenario.u, self.inputs),
-            SignalList::Unknown => (&mut scenario.d, self.unknown),
-            SignalList::Noise => (&mut scenario.noise, self.outputs),
-        };
-        let Ok(zero) = Signal::parse("0") else { return };
-        if index < count {
-            signals.resize(count, zero);
-            signals[index] = signal;
-        }
-    }
-
-    /// The uncertainty, created with one percent at 0.1 to 0.9 Hz where there is none.
-    fn uncertainty<'a>(&self, scenario: &'a mut crate::document::ScenarioData) -> &'a mut UncertaintyData {
-        let (e, n) = (self.equations, self.states);
-        scenario.uncertainty.get_or_insert_with(|| {
-            let frequency = |k: usize| Entry::number(0.1 + 0.1 * (k % 9) as f64);
-            UncertaintyData {
-                amplitude: EntryMatrix::from_entries(e, n, vec![Entry::number(0.01); e * n]),
-                frequency: EntryMatrix::from_entries(e, n, (0..e * n).map(frequency).collect()),
-                scale: 1.0,
-            }
-        })
-    }
 }
 
 /// A short name for a cell, `A[1, 2]` counted from one.
