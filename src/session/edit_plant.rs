@@ -6,7 +6,7 @@ use super::update::Edited;
 use crate::document::limits::MAX_SIDE;
 use crate::document::{DescriptorData, Document, Entry, EntryMatrix, Matrix, PlantData, matrix_from_text};
 use crate::numerics::Random;
-use crate::system::Signal;
+use crate::system::{Signal, check_partition};
 
 /// Changes the system of a document.
 pub(super) fn change(document: &mut Document, edit: Edit) -> Edited {
@@ -35,6 +35,18 @@ pub(super) fn change(document: &mut Document, edit: Edit) -> Edited {
         _ => {}
     }
     Edited::Done
+}
+
+/// Removes a partition into subsystems that the matrices no longer follow.
+pub(super) fn drop_broken_partition(document: &mut Document) {
+    let PlantData::Descriptor(data) = &mut document.plant else { return };
+    if data.partition.is_empty() {
+        return;
+    }
+    let follows = |system| check_partition(&system, &data.partition).is_ok();
+    if !data.system().is_ok_and(follows) {
+        data.partition.clear();
+    }
 }
 
 fn filled(matrix: &mut EntryMatrix, fill: Fill) {
@@ -167,13 +179,6 @@ impl Sizes {
         ];
         for (matrix, (rows, columns)) in data.matrices.iter_mut().zip(shapes) {
             *matrix = matrix.resized(rows, columns);
-        }
-        let parts = |of: fn(&crate::system::Subsystem) -> usize| data.partition.iter().map(of).sum::<usize>();
-        let still_fits = parts(|s| s.states) == states
-            && parts(|s| s.equations) == equations
-            && parts(|s| s.outputs) == outputs;
-        if !still_fits {
-            data.partition.clear();
         }
         // a nonlinearity of a state that is gone has no meaning any more
         let understood = |f: &String| crate::system::nonlinearity(f, states).is_ok();

@@ -182,6 +182,7 @@ fn change(document: &mut Document, edit: Edit) -> Edited {
         | Edit::Size { .. }
         | Edit::AddSensor { .. } => {
             let edited = edit_plant::change(document, edit);
+            edit_plant::drop_broken_partition(document);
             poles::provide(document);
             return edited;
         }
