@@ -318,7 +318,16 @@ fn every_example_behaves_as_its_title_says() {
             assert_eq!(run(&[command, &file]).code, code, "{command} {key}");
         }
         let folder = out.join(key);
-        assert_eq!(run(&["figures", &file, "--out", folder.to_str().unwrap()]).code, code, "figures {key}");
+        let ran = run(&["figures", &file, "--out", folder.to_str().unwrap()]);
+        assert_eq!(ran.code, code, "figures {key}");
+        if code == 0 {
+            let report = ran.json();
+            let figures = report["figures"].as_array().unwrap();
+            assert!(
+                figures.iter().all(|figure| figure["notes"] == serde_json::json!([])),
+                "{key}: {figures:#?}"
+            );
+        }
     }
 }
 
