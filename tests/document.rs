@@ -1,4 +1,5 @@
 //! Documents: what is refused, with place and need; what is read back exactly; the systems of all papers.
+#![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail by panicking")]
 
 use descry::document::{
     Document, DocumentError, PlantData, read_document, write_document, write_document_compact,
@@ -433,7 +434,7 @@ mod random {
         prop_oneof![
             prop::num::f64::NORMAL | prop::num::f64::SUBNORMAL | prop::num::f64::ZERO,
             (-9..10_i32).prop_map(f64::from),
-            Just(9_007_199_254_740_993.0),
+            Just(9_007_199_254_740_994.0),
             Just(1e22),
         ]
     }
@@ -519,7 +520,7 @@ mod random {
 
         #[test]
         fn arbitrary_text_never_panics(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
-            let _ = read_document(&String::from_utf8_lossy(&bytes));
+            drop(read_document(&String::from_utf8_lossy(&bytes)));
         }
 
         #[test]
@@ -529,7 +530,7 @@ mod random {
             if cut {
                 bytes.truncate(at);
             }
-            let _ = read_document(&String::from_utf8_lossy(&bytes));
+            drop(read_document(&String::from_utf8_lossy(&bytes)));
         }
     }
 }

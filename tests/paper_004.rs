@@ -1,4 +1,5 @@
 //! Paper 004 (Koenig and Mammar): conditions, designs and figures against the reference numbers.
+#![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail by panicking")]
 
 use descry::document::{Document, read_document, write_document};
 use descry::numerics::{Complex64, RankDecision, Tolerance, eigenvalues, spectral_distance};
