@@ -69,8 +69,14 @@ export class Page {
     self.page.on('pageerror', (error) => self.errors.push(error.stack ?? error.message));
     self.page.on('request', (request) => self.requests.push(request.url()));
     if (options.init) await self.page.addInitScript(options.init);
-    await self.page.goto(url + (options.hash ?? ''));
-    if (options.wait !== false) await self.started();
+    try {
+      await self.page.goto(url + (options.hash ?? ''));
+      if (options.wait !== false) await self.started();
+    } catch (error) {
+      await self.screenshot('failed-start').catch(() => {});
+      await self.close();
+      throw new Error(`${error.message}\nlogged: ${brief(self.errors.join('\n') || 'nothing')}`);
+    }
     return self;
   }
 

@@ -2,7 +2,8 @@
 //
 // A test file exports `default async ({ step, open, url, browser }) => { ... }`:
 //   open(options)       opens the page (see Page.open in harness.mjs) and closes it after the file
-//   step(what, work)    one statement; it fails when `work` throws, and the file goes on
+//   step(what, work)    one statement; it fails when `work` throws, and the file goes on. A picture of the page
+//                       that was opened last is then in e2e/out/failed-*.png
 // Every file ends with a step of its own: its pages logged no errors.
 import { readdirSync } from 'node:fs';
 import { basename, dirname, join } from 'node:path';
@@ -24,7 +25,8 @@ class Tally {
   passed = 0;
   failed = 0;
 
-  async step(what, work) {
+  /** Runs one step; `onFailure` may keep evidence. */
+  async step(what, work, onFailure = () => {}) {
     const start = Date.now();
     try {
       await work();
@@ -33,6 +35,7 @@ class Tally {
     } catch (error) {
       this.failed += 1;
       console.log(`FAIL  ${what} (${Date.now() - start} ms)\n      ${String(error.stack ?? error).replaceAll('\n', '\n      ')}`);
+      await onFailure();
     }
   }
 }
@@ -45,7 +48,8 @@ async function runFile(file, browser, url, tally) {
     pages.push(page);
     return page;
   };
-  const step = (what, work) => tally.step(`${name}: ${what}`, work);
+  const picture = () => pages.at(-1)?.screenshot(`failed-${name}-${tally.failed}`).catch(() => {});
+  const step = (what, work) => tally.step(`${name}: ${what}`, work, picture);
   const { default: test } = await import(pathToFileURL(join(TESTS, file)));
   try {
     await test({ step, open, url, browser });
@@ -59,17 +63,26 @@ async function runFile(file, browser, url, tally) {
 async function main([dist, ...names]) {
   if (!dist) throw new Error('which folder? node e2e/run.mjs dist [NAME ...]');
   const files = testFiles(names);
-  const server = await serve(dist);
-  const browser = await launch();
   const tally = new Tally();
+  const server = await serve(dist);
   try {
-    for (const file of files) await runFile(file, browser, server.url, tally);
+    const browser = await launch();
+    try {
+      for (const file of files) await runFile(file, browser, server.url, tally);
+    } finally {
+      await browser.close();
+    }
   } finally {
-    await browser.close();
+    // An open server would keep this program alive for ever.
     await server.close();
   }
   console.log(`${tally.passed} passed, ${tally.failed} failed`);
   if (tally.failed > 0) process.exitCode = 1;
 }
 
-await main(process.argv.slice(2));
+try {
+  await main(process.argv.slice(2));
+} catch (error) {
+  console.error(`error: ${error.message}`);
+  process.exitCode = 1;
+}

@@ -1,4 +1,4 @@
-//! Entry points: the window without arguments, a headless command with them.
+//! Entry points: the window or the page without arguments, a headless command with them.
 
 #[cfg(not(target_arch = "wasm32"))]
 fn main() -> std::process::ExitCode {
@@ -12,7 +12,19 @@ fn main() -> std::process::ExitCode {
 }
 
 /// Opens the window; returns the exit code.
-#[cfg(not(target_arch = "wasm32"))]
+#[cfg(all(feature = "gui", not(target_arch = "wasm32")))]
+fn open_window() -> u8 {
+    match descry::gui::open_window() {
+        Ok(()) => 0,
+        Err(error) => descry::headless::refuse_arguments(
+            &format!("the window cannot be opened: {error}"),
+            &mut std::io::stderr(),
+        ),
+    }
+}
+
+/// Says that this build has no window; returns the exit code.
+#[cfg(all(not(feature = "gui"), not(target_arch = "wasm32")))]
 fn open_window() -> u8 {
     descry::headless::refuse_arguments(
         "this build has no window (feature `gui`), so a command is needed",
@@ -20,6 +32,11 @@ fn open_window() -> u8 {
     )
 }
 
-/// The page is started by its own script.
-#[cfg(target_arch = "wasm32")]
+#[cfg(all(feature = "gui", target_arch = "wasm32"))]
+fn main() {
+    descry::gui::start_page();
+}
+
+/// Without its screen there is nothing to start in a browser.
+#[cfg(all(not(feature = "gui"), target_arch = "wasm32"))]
 fn main() {}

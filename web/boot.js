@@ -40,7 +40,8 @@ function fail(kind, reason) {
   }));
   byId('failure-reload').onclick = () => location.reload();
   byId('failure').hidden = false;
-  byId('failure-reload').focus();
+  // Later: the program may be in the middle of a picture, and moving the focus calls it.
+  setTimeout(() => byId('failure-reload').focus());
 }
 
 const started = () => 'started' in document.body.dataset;

@@ -9,7 +9,9 @@ mod figures;
 mod import;
 mod import_cells;
 mod import_latex;
+mod json;
 pub mod limits;
+mod link;
 mod matrix_text;
 mod model;
 mod pretty;
@@ -22,6 +24,8 @@ pub use error::DocumentError;
 pub use export_csv::{figure_to_csv, trajectory_to_csv};
 pub use export_svg::figure_to_svg;
 pub use import::{ImportError, PastedMatrix, matrix_from_text};
+pub use json::to_json;
+pub use link::{LinkError, from_link_fragment, is_link_fragment, to_link_fragment};
 pub use matrix_text::{MatrixSyntax, matrix_to_text};
 pub use model::{
     Coupling, DescriptorData, Document, LipschitzData, Matrix, NetworkData, PlantData, ScenarioData,

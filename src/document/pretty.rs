@@ -47,7 +47,7 @@ fn write(value: &Value, depth: usize, text: &mut String) {
             text.push('}');
         }
         Value::Object(_) | Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) => {
-            text.push_str(&one_line)
+            text.push_str(&one_line);
         }
     }
 }

@@ -274,11 +274,11 @@ fn noise_is_the_same_everywhere_and_linear_between_samples() {
 #[test]
 fn jumps_are_found_to_full_precision() {
     let jumps = |text: &str, from: f64, to: f64| Expression::parse(text, &["t"]).unwrap().jumps(from, to);
-    assert_eq!(jumps("5 + 2*sin(4*t)", 0.0, 10.0), [0.0_f64; 0], "smooth");
-    assert_eq!(jumps("max(t, 1) + abs(t-2) + noise(t, 1)", 0.0, 10.0), [0.0_f64; 0], "kinks are no jumps");
+    assert!(jumps("5 + 2*sin(4*t)", 0.0, 10.0).is_empty(), "smooth");
+    assert!(jumps("max(t, 1) + abs(t-2) + noise(t, 1)", 0.0, 10.0).is_empty(), "kinks are no jumps");
     assert_eq!(jumps("step(t-3)", 0.0, 10.0), [3.0], "one step");
     assert_eq!(jumps("step(t-1/3)", 0.0, 10.0), [1.0 / 3.0], "a step between the decimals");
-    assert_eq!(jumps("step(t)", 0.0, 10.0), [0.0_f64; 0], "a step at the beginning has happened");
+    assert!(jumps("step(t)", 0.0, 10.0).is_empty(), "a step at the beginning has happened");
     assert_eq!(jumps("step(t)", -1.0, 1.0), [0.0], "a step at zero");
     assert_eq!(jumps("sign(t-1)", 0.0, 10.0), [1.0], "passing zero counts once");
     assert_eq!(jumps("pulse(t, 3, 3.0000001)", 0.0, 10.0), [3.0, 3.000_000_1], "a pulse within one cell");
@@ -290,8 +290,8 @@ fn jumps_are_found_to_full_precision() {
     assert_eq!(jumps("step(sin(t))", 0.1, 10.0).len(), 3, "at pi, 2 pi, 3 pi");
     assert!((jumps("step(sin(t))", 0.1, 4.0)[0] - PI).abs() < 1e-15, "at pi");
     assert_eq!(jumps("square(1e9*t)", 0.0, 10.0).len(), 10_000, "capped");
-    assert_eq!(jumps("step(t-1)", 2.0, 0.0), [0.0_f64; 0], "an empty interval");
-    assert_eq!(jumps("step(t-1)", f64::NAN, f64::INFINITY), [0.0_f64; 0], "no interval");
+    assert!(jumps("step(t-1)", 2.0, 0.0).is_empty(), "an empty interval");
+    assert!(jumps("step(t-1)", f64::NAN, f64::INFINITY).is_empty(), "no interval");
     assert_eq!(
         jumps("sqrt(step(t-1)-1)*step(log(t-2))", 0.0, 10.0),
         [1.0, 2.0, 3.0],

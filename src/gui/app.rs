@@ -1,6 +1,7 @@
 //! The application: runs commands and jobs, then draws.
 
 use crate::platform::Runner;
+use crate::platform::files::FileRequest;
 use crate::session::{Command, Derived, Place, Session, update};
 
 use super::{figures_panel, observer_panel, status_bar, system_panel, theme, top_bar};
@@ -12,6 +13,8 @@ pub struct App {
     runner: Box<dyn Runner>,
     /// State of widgets that is not worth saving: open menus, active cell.
     widgets: super::Widgets,
+    /// What was asked of the platform.
+    file_requests: Vec<FileRequest>,
 }
 
 impl std::fmt::Debug for App {
@@ -24,7 +27,13 @@ impl App {
     /// Starts with a session; `runner` performs its computations.
     pub fn new(ctx: &egui::Context, session: Session, runner: Box<dyn Runner>) -> Self {
         theme::install(ctx);
-        Self { session, derived: Derived::default(), runner, widgets: super::Widgets::default() }
+        Self {
+            session,
+            derived: Derived::default(),
+            runner,
+            widgets: super::Widgets::default(),
+            file_requests: Vec::new(),
+        }
     }
 
     /// The session.
@@ -42,10 +51,23 @@ impl App {
         update(&mut self.session, command);
     }
 
+    /// Shows a sentence that does not come from a command.
+    pub fn tell(&mut self, text: impl Into<String>, error: bool) {
+        self.session.tell(text, error);
+    }
+
+    /// What was asked of the platform since the last call.
+    pub fn take_file_requests(&mut self) -> Vec<FileRequest> {
+        std::mem::take(&mut self.file_requests)
+    }
+
     /// Takes replies and starts the next computation.
     pub fn run_jobs(&mut self) {
         while let Some(reply) = self.runner.poll() {
-            self.derived.receive(reply);
+            self.derived.receive_timed(reply, self.runner.elapsed_ms());
+        }
+        if let Some(note) = self.runner.note() {
+            self.session.tell(note, false);
         }
         if let Some(request) = self.derived.next_request(&self.session) {
             self.runner.start(request);
@@ -58,13 +80,14 @@ impl App {
         theme::choose(ui.ctx(), self.session.view().theme);
         let mut out = super::Output::default();
         super::shortcuts::take(ui.ctx(), &mut out);
+        super::file_menu::shortcuts(ui.ctx(), &mut out);
         egui::Panel::top("top").show(ui, |ui| top_bar::show(ui, &self.session, &mut self.widgets, &mut out));
         egui::Panel::bottom("status")
             .show(ui, |ui| status_bar::show(ui, &self.session, &self.derived, &mut out));
         if ui.available_width() < theme::NARROW {
-            self.narrow(ui, &mut out)
+            self.narrow(ui, &mut out);
         } else {
-            self.wide(ui, &mut out)
+            self.wide(ui, &mut out);
         }
         self.carry_out(ui.ctx(), out);
     }
@@ -94,11 +117,11 @@ impl App {
             ui.separator();
             match session.view().place {
                 Place::System => {
-                    scroll(ui, "system-scroll", |ui| system_panel::show(ui, session, derived, widgets, out))
+                    scroll(ui, "system-scroll", |ui| system_panel::show(ui, session, derived, widgets, out));
                 }
                 Place::Observer => {
                     scroll(ui, "observer-scroll", |ui| {
-                        observer_panel::show(ui, session, derived, widgets, out)
+                        observer_panel::show(ui, session, derived, widgets, out);
                     });
                 }
                 Place::Figures => figures_panel::show(ui, session, derived, widgets, out),
@@ -106,7 +129,8 @@ impl App {
         });
     }
 
-    fn carry_out(&mut self, ctx: &egui::Context, out: super::Output) {
+    fn carry_out(&mut self, ctx: &egui::Context, mut out: super::Output) {
+        self.file_requests.append(&mut out.files);
         let any = !out.commands.is_empty();
         for command in out.commands {
             self.command(command);

@@ -1,18 +1,39 @@
 //! L5: the screen: reads the session and what is derived, returns commands, writes nothing.
 
+pub mod accessibility;
 mod app;
+mod conditions;
+mod curve;
 pub mod figures_panel;
+mod file_menu;
+mod formula;
+#[cfg(not(target_arch = "wasm32"))]
+mod icon;
+pub mod matrix_grid;
 pub mod observer_panel;
 pub mod plot;
 pub mod pole_plane;
+mod result;
+pub mod scenario;
 mod shortcuts;
+mod start;
+#[cfg(target_arch = "wasm32")]
+mod state_report;
 mod status_bar;
 pub mod system_panel;
+pub mod text_field;
 pub mod theme;
 mod top_bar;
+mod window;
 
 pub use app::App;
+#[cfg(not(target_arch = "wasm32"))]
+pub use start::open_window;
+#[cfg(target_arch = "wasm32")]
+pub use start::start_page;
+pub use window::Window;
 
+use crate::platform::files::FileRequest;
 use crate::session::{Cell, Command, Edit, Show};
 
 /// What a frame asks for.
@@ -22,6 +43,8 @@ pub struct Output {
     pub commands: Vec<Command>,
     /// Stop the running computation.
     pub cancel: bool,
+    /// Files and links.
+    pub files: Vec<FileRequest>,
 }
 
 impl Output {

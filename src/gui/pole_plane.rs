@@ -1,1 +1,435 @@
-//! (being written)
+//! The complex plane: wished poles to drag, achieved poles over them, fixed modes, eigenvalues of the plant.
+
+use egui::{Align2, FontId, Id, Key, Pos2, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, vec2};
+
+use super::{Output, theme};
+use crate::document::PlantData;
+use crate::numerics::Complex64;
+use crate::observer::show;
+use crate::session::{Derived, Edit, Session, unscaled};
+use crate::system::TimeDomain;
+
+/// Distance in points from a pole within which it is taken: by a mouse, by a finger.
+const MOUSE_RADIUS: f32 = 14.0;
+const TOUCH_RADIUS: f32 = 24.0;
+
+/// What is drawn.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Poles {
+    /// Discrete time: the unit circle bounds the stable poles.
+    pub discrete: bool,
+    /// The bandwidth factor.
+    pub scale: f64,
+    /// Wished poles of the document, scaled.
+    pub wished: Vec<Complex64>,
+    /// How many of them the order uses.
+    pub used: usize,
+    /// Eigenvalues that the gain gave.
+    pub achieved: Vec<Complex64>,
+    /// Modes that no gain moves.
+    pub fixed: Vec<Complex64>,
+    /// Finite eigenvalues of the plant.
+    pub plant: Vec<Complex64>,
+}
+
+impl Poles {
+    /// Collects what is to be drawn; achieved poles are those of the newest analysis.
+    pub fn collect(session: &Session, derived: &Derived) -> Self {
+        let document = session.document();
+        let discrete = match &document.plant {
+            PlantData::Descriptor(data) => data.time == TimeDomain::Discrete,
+            PlantData::Network(_) => false,
+        };
+        let scale = document.design.scale;
+        // undoing the inverse scale is scaling
+        let wished: Vec<Complex64> =
+            document.design.poles.iter().map(|pole| unscaled(*pole, 1.0 / scale, discrete)).collect();
+        let mut poles = Self { discrete, scale, used: wished.len(), wished, ..Self::default() };
+        if let Some(analysis) = derived.analysis() {
+            poles.plant.clone_from(&analysis.plant_eigenvalues);
+            if let Some(design) = analysis.assessment.as_ref().ok().and_then(|a| a.outcome.as_ref().ok()) {
+                poles.used = design.placement.requested.len().min(poles.used);
+                poles.achieved.clone_from(&design.placement.achieved);
+                poles.fixed.clone_from(&design.placement.fixed_modes);
+            }
+        }
+        poles
+    }
+
+    /// The smallest rectangle that a view must show: `[re low, re high, im half]`.
+    fn needed(&self) -> [f64; 3] {
+        let own = self.wished[..self.used].iter().chain(&self.achieved).chain(&self.fixed);
+        let far = own.clone().map(|z| z.norm()).fold(0.0, f64::max);
+        // a fast mode of the plant must not press the observer's poles into one point
+        let plant = self.plant.iter().filter(|z| z.norm() <= 3.0 * far.max(1e-3));
+        let all = || own.clone().chain(plant.clone()).filter(|z| z.re.is_finite() && z.im.is_finite());
+        let (low, high, half) = all().fold((0.0_f64, 0.0_f64, 0.0_f64), |(low, high, half), z| {
+            (low.min(z.re), high.max(z.re), half.max(z.im.abs()))
+        });
+        if self.discrete {
+            let edge = |value: f64| value.abs().max(1.0) * 1.15;
+            return [-edge(low), edge(high), edge(half)];
+        }
+        let span = (high - low).max(2.0 * half).max(1e-3);
+        [low - 0.12 * span, high + 0.15 * span, half * 1.25]
+    }
+}
+
+/// The part of the plane that is shown; the same scale on both axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct View {
+    centre: f64,
+    per_point: f64,
+    size: Vec2,
+}
+
+impl View {
+    fn fit([low, high, half]: [f64; 3], size: Vec2) -> Self {
+        let per_point = ((high - low) / f64::from(size.x)).max(2.0 * half / f64::from(size.y)).max(1e-12);
+        Self { centre: f64::midpoint(low, high), per_point, size }
+    }
+
+    /// Whether what is needed fits into the view and is not lost in it.
+    fn suits(&self, needed: [f64; 3], size: Vec2) -> bool {
+        let ideal = Self::fit(needed, size);
+        let half_width = 0.5 * f64::from(size.x) * self.per_point;
+        let [low, high, half] = needed;
+        let margin = 0.1 * (high - low);
+        self.size == size
+            && low + margin >= self.centre - half_width
+            && high - margin <= self.centre + half_width
+            && 0.85 * half <= 0.5 * f64::from(size.y) * self.per_point
+            && ideal.per_point >= 0.45 * self.per_point
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "screen coordinates")]
+    fn screen(&self, z: Complex64, rect: Rect) -> Pos2 {
+        let offset = |value: f64| (value / self.per_point).clamp(-1e6, 1e6) as f32;
+        rect.center() + vec2(offset(z.re - self.centre), -offset(z.im))
+    }
+
+    fn value(&self, at: Pos2, rect: Rect) -> Complex64 {
+        let offset = at - rect.center();
+        Complex64::new(
+            self.centre + f64::from(offset.x) * self.per_point,
+            -f64::from(offset.y) * self.per_point,
+        )
+    }
+}
+
+/// What is remembered between frames.
+#[derive(Clone, Copy, Debug, Default)]
+struct Memory {
+    view: Option<View>,
+    /// The pole that is dragged and its offset from the pointer.
+    dragged: Option<(usize, Vec2)>,
+    /// The pole that arrow keys are moving.
+    stepping: Option<usize>,
+}
+
+/// Draws the plane and turns drags and arrow keys into moved poles.
+pub fn pole_plane_ui(ui: &mut Ui, session: &Session, derived: &Derived, size: Vec2, out: &mut Output) {
+    let poles = Poles::collect(session, derived);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
+    ui.ctx().accesskit_node_builder(response.id, |node| {
+        node.set_role(Role::Group);
+        node.set_label("pole plane");
+    });
+    let id = response.id.with("memory");
+    let mut memory = ui.data(|data| data.get_temp::<Memory>(id)).unwrap_or_default();
+    let needed = poles.needed();
+    let view = match memory.view {
+        Some(view) if memory.dragged.is_some() || view.suits(needed, size) => view,
+        _ => View::fit(needed, size),
+    };
+    memory.view = Some(view);
+    background(ui, rect, &view, poles.discrete);
+    marks(ui, rect, &view, &poles);
+    let plane = Plane { poles: &poles, view, rect };
+    plane.pointer(ui, &response, &mut memory, out);
+    let focused = plane.nodes(ui, response.id, &mut memory, out);
+    plane.wishes(ui, &response, memory.dragged.map(|(k, _)| k).or(focused));
+    plane.read_out(ui, response, memory.dragged.map(|(k, _)| k));
+    ui.data_mut(|data| data.insert_temp(id, memory));
+}
+
+struct Plane<'a> {
+    poles: &'a Poles,
+    view: View,
+    rect: Rect,
+}
+
+impl Plane<'_> {
+    fn at(&self, z: Complex64) -> Pos2 {
+        self.view.screen(z, self.rect)
+    }
+
+    /// The used pole nearest to the pointer, within reach.
+    fn nearest(&self, ui: &Ui, pointer: Pos2) -> Option<usize> {
+        let touch = ui.input(egui::InputState::any_touches);
+        let radius = if touch { TOUCH_RADIUS } else { MOUSE_RADIUS };
+        let distance = |k: &usize| self.at(self.poles.wished[*k]).distance(pointer);
+        (0..self.poles.used)
+            .filter(|k| distance(k) <= radius)
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+
+    fn move_to(&self, index: usize, to: Complex64, done: bool, out: &mut Output) {
+        let to = unscaled(to, self.poles.scale, self.poles.discrete);
+        out.edit(Edit::MovePole { index, to, done });
+    }
+
+    /// Drags: a pole keeps its distance from the pointer, and does not leave the view.
+    fn pointer(&self, ui: &Ui, response: &Response, memory: &mut Memory, out: &mut Output) {
+        if response.drag_started() {
+            let origin = ui.input(|input| input.pointer.press_origin());
+            memory.dragged = origin
+                .and_then(|origin| Some((self.nearest(ui, origin)?, origin)))
+                .map(|(k, origin)| (k, self.at(self.poles.wished[k]) - origin));
+        }
+        if response.clicked() || response.drag_started() {
+            let at = ui.input(|input| input.pointer.press_origin()).or(response.interact_pointer_pos());
+            if let Some(k) = at.and_then(|at| self.nearest(ui, at)) {
+                ui.memory_mut(|memory| memory.request_focus(node_id(response.id, k)));
+            }
+        }
+        let Some((k, offset)) = memory.dragged else { return };
+        let still_there = k < self.poles.used;
+        let pointer = response.interact_pointer_pos().filter(|_| still_there);
+        let ended = response.drag_stopped() || !response.dragged();
+        if let Some(pointer) = pointer {
+            let inside = self.rect.shrink(2.0).clamp(pointer + offset);
+            if ended || response.drag_delta() != Vec2::ZERO || response.drag_started() {
+                self.move_to(k, self.view.value(inside, self.rect), ended, out);
+            }
+        } else if ended && still_there {
+            self.move_to(k, self.poles.wished[k], true, out);
+        }
+        if ended {
+            memory.dragged = None;
+        }
+    }
+
+    /// One node for each used pole: focus by Tab, moves by arrow keys, names for assistive technology.
+    fn nodes(&self, ui: &Ui, plane: Id, memory: &mut Memory, out: &mut Output) -> Option<usize> {
+        let mut focused = None;
+        for (k, pole) in self.poles.wished[..self.poles.used].iter().enumerate() {
+            let id = node_id(plane, k);
+            let node = Rect::from_center_size(self.at(*pole), Vec2::splat(12.0));
+            let response = ui.interact(node, id, Sense::focusable_noninteractive());
+            response.widget_info(|| egui::WidgetInfo::labeled(Role::Slider, true, format!("pole {}", k + 1)));
+            ui.ctx().accesskit_node_builder(id, |node| node.set_value(show(*pole)));
+            if response.has_focus() {
+                focused = Some(k);
+                let arrows = egui::EventFilter {
+                    horizontal_arrows: true,
+                    vertical_arrows: true,
+                    ..egui::EventFilter::default()
+                };
+                ui.memory_mut(|memory| memory.set_focus_lock_filter(id, arrows));
+                self.keys(ui, k, memory, out);
+            }
+        }
+        focused
+    }
+
+    /// Arrow keys; holding one is one step of the history.
+    fn keys(&self, ui: &Ui, k: usize, memory: &mut Memory, out: &mut Output) {
+        let (count, fine, released) = ui.input(|input| {
+            let pressed = |key| input.num_presses(key) as f64;
+            let count = (
+                pressed(Key::ArrowRight) - pressed(Key::ArrowLeft),
+                pressed(Key::ArrowUp) - pressed(Key::ArrowDown),
+            );
+            let arrows = [Key::ArrowRight, Key::ArrowLeft, Key::ArrowUp, Key::ArrowDown];
+            (count, input.modifiers.shift, !arrows.iter().any(|key| input.key_down(*key)))
+        });
+        let pole = self.poles.wished[k];
+        if count != (0.0, 0.0) {
+            let step = round_step(8.0 * self.view.per_point) * if fine { 0.1 } else { 1.0 };
+            let mut to = pole + Complex64::new(count.0 * step, count.1 * step);
+            if pole.im == 0.0 && count.1 != 0.0 {
+                // far enough from the real axis not to snap back onto it
+                to.im = count.1.signum() * step.max(0.04 * pole.norm());
+            }
+            memory.stepping = Some(k);
+            self.move_to(k, to, released, out);
+        } else if released && memory.stepping == Some(k) {
+            self.move_to(k, pole, true, out);
+        }
+        if released {
+            memory.stepping = None;
+        }
+    }
+
+    /// Crosses for wished poles; those that the order does not use are faint.
+    fn wishes(&self, ui: &Ui, response: &Response, active: Option<usize>) {
+        let painter = ui.painter().with_clip_rect(self.rect.intersect(ui.clip_rect()));
+        let under = response.hover_pos().and_then(|at| self.nearest(ui, at));
+        for (k, pole) in self.poles.wished.iter().enumerate() {
+            let at = self.at(*pole);
+            let used = k < self.poles.used;
+            let marked = active == Some(k) || active.is_none() && under == Some(k);
+            let colour = if used { theme::accent(ui) } else { theme::faint(ui).gamma_multiply(0.5) };
+            let arm = if marked { 8.0 } else { 6.0 };
+            let stroke = Stroke::new(if used { 2.2 } else { 1.2 }, colour);
+            painter.line_segment([at - vec2(arm, arm), at + vec2(arm, arm)], stroke);
+            painter.line_segment([at - vec2(arm, -arm), at + vec2(arm, -arm)], stroke);
+            if marked {
+                painter.circle_stroke(at, 13.0, Stroke::new(1.5, colour));
+            }
+        }
+        for pole in &self.poles.achieved {
+            painter.circle_filled(self.at(*pole), 3.2, theme::good(ui));
+        }
+        if under.is_some() || active.is_some() && response.dragged() {
+            let icon = if response.dragged() { egui::CursorIcon::Grabbing } else { egui::CursorIcon::Grab };
+            ui.ctx().set_cursor_icon(icon);
+        }
+    }
+
+    /// What is under the pointer, in the upper left corner; the reason for a fixed mode as a tooltip.
+    fn read_out(&self, ui: &Ui, response: Response, dragged: Option<usize>) {
+        let Some(pointer) = response.hover_pos() else { return };
+        let near = |values: &[Complex64]| {
+            values.iter().copied().find(|z| self.at(*z).distance(pointer) <= MOUSE_RADIUS)
+        };
+        let text = if let Some(k) = dragged.or_else(|| self.nearest(ui, pointer)) {
+            format!("pole {}: {}", k + 1, show(self.poles.wished[k]))
+        } else if let Some(fixed) = near(&self.poles.fixed) {
+            format!("fixed mode {}", show(fixed))
+        } else if let Some(unused) = near(&self.poles.wished[self.poles.used..]) {
+            format!("{} waits: this order uses {} poles", show(unused), self.poles.used)
+        } else if let Some(plant) = near(&self.poles.plant) {
+            format!("eigenvalue of the plant {}", show(plant))
+        } else {
+            show(self.view.value(pointer, self.rect))
+        };
+        let painter = ui.painter().with_clip_rect(self.rect.intersect(ui.clip_rect()));
+        let corner = self.rect.left_top() + vec2(8.0, 6.0);
+        painter.text(corner, Align2::LEFT_TOP, text, FontId::proportional(12.0), ui.visuals().text_color());
+        if dragged.is_none() && near(&self.poles.fixed).is_some() {
+            response.on_hover_text_at_pointer(
+                "A fixed mode: the outputs do not see it, so no gain can move it. Another output could.",
+            );
+        }
+    }
+}
+
+fn node_id(plane: Id, k: usize) -> Id {
+    plane.with(("pole", k))
+}
+
+/// The nearest of 1, 2, 5 times a power of ten, upwards.
+fn round_step(least: f64) -> f64 {
+    let unit = 10_f64.powf(least.max(1e-300).log10().floor());
+    [1.0, 2.0, 5.0].into_iter().map(|factor| factor * unit).find(|step| *step >= least).unwrap_or(10.0 * unit)
+}
+
+/// The unstable region, the grid, the axes and the unit circle.
+fn background(ui: &Ui, rect: Rect, view: &View, discrete: bool) {
+    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+    let plain = ui.visuals().extreme_bg_color;
+    let unstable = theme::bad(ui).gamma_multiply(0.09);
+    let origin = view.screen(Complex64::new(0.0, 0.0), rect);
+    painter.rect_filled(rect, 4.0, plain);
+    let border = Stroke::new(1.2, theme::bad(ui).gamma_multiply(0.6));
+    if discrete {
+        #[expect(clippy::cast_possible_truncation, reason = "screen coordinates")]
+        let radius = (1.0 / view.per_point).min(1e5) as f32;
+        painter.rect_filled(rect, 4.0, unstable);
+        painter.circle_filled(origin, radius, plain);
+        painter.circle_stroke(origin, radius, border);
+    } else if origin.x < rect.right() {
+        let right = Rect::from_min_max(Pos2::new(origin.x.max(rect.left()), rect.top()), rect.max);
+        painter.rect_filled(right, 0.0, unstable);
+        painter.vline(origin.x, rect.y_range(), border);
+    }
+    let step = round_step(70.0 * view.per_point);
+    let faint = Stroke::new(1.0, theme::faint(ui).gamma_multiply(0.22));
+    let axis = Stroke::new(1.0, theme::faint(ui).gamma_multiply(0.7));
+    let font = FontId::proportional(11.0);
+    let low = view.value(rect.left_bottom(), rect);
+    let high = view.value(rect.right_top(), rect);
+    for value in multiples(step, low.re, high.re) {
+        let x = view.screen(Complex64::new(value, 0.0), rect).x;
+        painter.vline(x, rect.y_range(), if value == 0.0 { axis } else { faint });
+        let at = Pos2::new(x + 3.0, rect.bottom() - 2.0);
+        painter.text(at, Align2::LEFT_BOTTOM, super::plot::short(value), font.clone(), theme::faint(ui));
+    }
+    for value in multiples(step, low.im, high.im) {
+        let y = view.screen(Complex64::new(0.0, value), rect).y;
+        painter.hline(rect.x_range(), y, if value == 0.0 { axis } else { faint });
+        if value != 0.0 {
+            let at = Pos2::new(rect.right() - 4.0, y - 1.0);
+            let text = format!("{}i", super::plot::short(value));
+            painter.text(at, Align2::RIGHT_BOTTOM, text, font.clone(), theme::faint(ui));
+        }
+    }
+    painter.rect_stroke(rect, 4.0, ui.visuals().widgets.noninteractive.bg_stroke, StrokeKind::Inside);
+}
+
+fn multiples(step: f64, low: f64, high: f64) -> Vec<f64> {
+    #[expect(clippy::cast_possible_truncation, reason = "a few dozen grid lines")]
+    let range = (low / step).ceil() as i64..=(high / step).floor() as i64;
+    // adding zero turns -0 into 0
+    range.take(200).map(|k| k as f64 * step + 0.0).collect()
+}
+
+/// Eigenvalues of the plant as squares, fixed modes as rings.
+fn marks(ui: &Ui, rect: Rect, view: &View, poles: &Poles) {
+    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+    let square = Stroke::new(1.4, theme::faint(ui));
+    for plant in &poles.plant {
+        let mark = Rect::from_center_size(view.screen(*plant, rect), Vec2::splat(9.0));
+        painter.rect_stroke(mark, 0.0, square, StrokeKind::Middle);
+    }
+    for fixed in &poles.fixed {
+        painter.circle_stroke(view.screen(*fixed, rect), 6.5, Stroke::new(2.0, theme::near(ui)));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn real(values: &[f64]) -> Poles {
+        let wished: Vec<Complex64> = values.iter().map(|value| Complex64::from(*value)).collect();
+        Poles { used: wished.len(), wished, scale: 1.0, ..Poles::default() }
+    }
+
+    #[test]
+    fn a_view_shows_every_pole_and_the_border_of_stability() {
+        let mut poles = real(&[-22.0, -18.0, -33.0]);
+        poles.wished.push(Complex64::new(-3.0, 20.0));
+        poles.used = 4;
+        let size = vec2(300.0, 200.0);
+        let rect = Rect::from_min_size(Pos2::ZERO, size);
+        let view = View::fit(poles.needed(), size);
+        for pole in poles.wished.iter().chain([&Complex64::new(0.0, 0.0)]) {
+            assert!(rect.shrink(4.0).contains(view.screen(*pole, rect)), "{pole} is inside");
+        }
+    }
+
+    #[test]
+    fn values_and_places_are_inverse() {
+        let view = View::fit([-40.0, 5.0, 10.0], vec2(300.0, 200.0));
+        let rect = Rect::from_min_size(Pos2::new(50.0, 70.0), vec2(300.0, 200.0));
+        let z = Complex64::new(-7.0, 3.0);
+        assert!((view.value(view.screen(z, rect), rect) - z).norm() < 1e-4, "there and back");
+    }
+
+    #[test]
+    fn a_view_is_kept_until_a_pole_leaves_it_or_is_lost_in_it() {
+        let size = vec2(300.0, 200.0);
+        let view = View::fit(real(&[-20.0, -10.0]).needed(), size);
+        assert!(view.suits(real(&[-18.0, -9.0]).needed(), size), "small moves keep the view");
+        assert!(!view.suits(real(&[-40.0, -10.0]).needed(), size), "a pole outside");
+        assert!(!view.suits(real(&[-2.0, -1.0]).needed(), size), "poles in a corner");
+    }
+
+    #[test]
+    fn steps_are_round() {
+        assert_eq!([0.7, 1.0, 1.3, 3.0, 7.0].map(round_step), [1.0, 1.0, 2.0, 5.0, 10.0], "1, 2, 5");
+    }
+}

@@ -17,7 +17,9 @@ pub(super) fn show(ui: &mut Ui, session: &Session, derived: &Derived, out: &mut 
         } else if let Some(failure) = derived.failure() {
             ui.colored_label(theme::bad(ui), format!("the computation broke off: {failure}"));
         } else {
-            ui.colored_label(theme::good(ui), "up to date");
+            let took =
+                derived.elapsed_ms().map(|ms| format!("conditions, design and simulation in {ms:.0} ms"));
+            ui.colored_label(theme::good(ui), took.as_deref().unwrap_or("up to date"));
         }
         ui.separator();
         match session.message() {

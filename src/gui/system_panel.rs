@@ -1,15 +1,159 @@
-//! This system: sizes, matrices, properties.
+//! This system: title, time, sizes, matrices, properties.
 
-use super::{Output, Widgets};
-use crate::session::{Derived, Session};
+use egui::{RichText, Ui};
+
+use super::{Output, Widgets, matrix_grid, theme};
+use crate::document::{DescriptorData, Document, EntryMatrix, Matrix, PlantData, matrix_from_text};
+use crate::session::{Derived, Edit, Session, Size};
+use crate::system::TimeDomain;
 
 /// Draws the place of the system.
-pub fn show(
-    ui: &mut egui::Ui,
-    session: &Session,
-    derived: &Derived,
-    widgets: &mut Widgets,
-    out: &mut Output,
-) {
-    let _ = (ui, session, derived, widgets, out);
+pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Widgets, out: &mut Output) {
+    take_pasted_matrix(ui, widgets, out);
+    widgets.active_cell = None;
+    ui.add_space(theme::ITEM_GAP);
+    heading(ui, session.document(), out);
+    match &session.document().plant {
+        PlantData::Descriptor(data) => {
+            ui.add_space(theme::ITEM_GAP);
+            equations(ui, data);
+            time_and_sizes(ui, data, out);
+            ui.add_space(theme::ITEM_GAP);
+            for matrix in Matrix::ALL {
+                let (rows, columns) = data.matrix(matrix).shape();
+                let hidden = matrix == Matrix::F && (rows == 0 || columns == 0);
+                if !hidden {
+                    matrix_grid::show(ui, session, data, matrix, widgets, out);
+                    ui.add_space(theme::ITEM_GAP);
+                }
+            }
+        }
+        PlantData::Network(_) => {
+            ui.label("This document holds a network of subsystems; its expanded matrices are used.");
+        }
+    }
+    properties(ui, derived);
+}
+
+fn heading(ui: &mut Ui, document: &Document, out: &mut Output) {
+    let mut title = document.title.clone();
+    let field = egui::TextEdit::singleline(&mut title)
+        .hint_text("Title")
+        .font(egui::TextStyle::Heading)
+        .desired_width(f32::INFINITY)
+        .frame(egui::Frame::NONE);
+    let response = ui.add(field);
+    response.ctx.accesskit_node_builder(response.id, |node| node.set_label("Title"));
+    if response.changed() {
+        out.edit(Edit::Title(title));
+    }
+    let mut notes = document.notes.clone();
+    let field = egui::TextEdit::multiline(&mut notes)
+        .hint_text("Notes")
+        .desired_rows(1)
+        .desired_width(f32::INFINITY)
+        .frame(egui::Frame::NONE)
+        .text_color(theme::faint(ui));
+    let response = ui.add(field);
+    response.ctx.accesskit_node_builder(response.id, |node| node.set_label("Notes"));
+    if response.changed() {
+        out.edit(Edit::Notes(notes));
+    }
+}
+
+fn equations(ui: &mut Ui, data: &DescriptorData) {
+    let derivative = match data.time {
+        TimeDomain::Continuous => "E x' = A x + B u + D d",
+        TimeDomain::Discrete => "E x[k+1] = A x[k] + B u[k] + D d[k]",
+    };
+    let output = match data.time {
+        TimeDomain::Continuous => "y = C x + F d",
+        TimeDomain::Discrete => "y[k] = C x[k] + F d[k]",
+    };
+    ui.label(RichText::new(format!("{derivative},   {output}")).monospace());
+}
+
+fn time_and_sizes(ui: &mut Ui, data: &DescriptorData, out: &mut Output) {
+    ui.horizontal_wrapped(|ui| {
+        for (time, name) in [(TimeDomain::Continuous, "Continuous"), (TimeDomain::Discrete, "Discrete")] {
+            if ui.selectable_label(data.time == time, name).clicked() && data.time != time {
+                out.edit(Edit::Time(time));
+            }
+        }
+    });
+    let [e, _, b, c, d, _] = data.matrices.each_ref().map(EntryMatrix::shape);
+    let mut sizes = vec![
+        (Size::States, "states", e.1),
+        (Size::Inputs, "known inputs", b.1),
+        (Size::Outputs, "outputs", c.0),
+        (Size::UnknownInputs, "unknown inputs", d.1),
+    ];
+    if e.0 != e.1 {
+        sizes.insert(1, (Size::Equations, "equations", e.0));
+    }
+    ui.horizontal_wrapped(|ui| {
+        for (of, name, count) in sizes {
+            stepper(ui, of, name, count, out);
+        }
+    });
+}
+
+/// A number with buttons for one fewer and one more.
+fn stepper(ui: &mut Ui, of: Size, name: &str, count: usize, out: &mut Output) {
+    egui::Frame::new().fill(ui.visuals().faint_bg_color).corner_radius(4.0).inner_margin(3.0).show(
+        ui,
+        |ui| {
+            ui.horizontal(|ui| {
+                for (symbol, grow, word) in [("-", false, "Fewer"), ("+", true, "More")] {
+                    let response = ui.add(egui::Button::new(symbol).min_size(egui::vec2(24.0, 24.0)));
+                    response
+                        .ctx
+                        .accesskit_node_builder(response.id, |node| node.set_label(format!("{word} {name}")));
+                    if response.clicked() {
+                        out.edit(Edit::Size { of, grow });
+                    }
+                    if !grow {
+                        ui.label(RichText::new(count.to_string()).strong());
+                    }
+                }
+                ui.label(RichText::new(name).small());
+            });
+        },
+    );
+}
+
+fn properties(ui: &mut Ui, derived: &Derived) {
+    let Some(analysis) = derived.analysis() else { return };
+    ui.separator();
+    ui.label(RichText::new("Properties").strong());
+    egui::Grid::new("properties").num_columns(2).spacing([10.0, 4.0]).show(ui, |ui| {
+        for property in &analysis.properties {
+            ui.label(&property.name);
+            let value = match property.verdict {
+                Some(verdict) => RichText::new(&property.value).color(theme::verdict(ui, verdict)).strong(),
+                None => RichText::new(&property.value),
+            };
+            ui.label(value).on_hover_text(&property.detail);
+            ui.end_row();
+        }
+    });
+}
+
+/// Takes a pasted block of numbers for the active cell before the cell's own text field sees it.
+fn take_pasted_matrix(ui: &Ui, widgets: &mut Widgets, out: &mut Output) {
+    let Some(cell) = widgets.active_cell else { return };
+    let mut pasted = None;
+    ui.input_mut(|input| {
+        input.events.retain(|event| match event {
+            egui::Event::Paste(text) if matrix_from_text(text).is_ok_and(|m| m.entries.len() > 1) => {
+                pasted = Some(text.clone());
+                false
+            }
+            _ => true,
+        });
+    });
+    if let Some(text) = pasted {
+        widgets.typing = None;
+        out.edit(Edit::Paste { cell, text });
+    }
 }

@@ -18,6 +18,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, _widgets: &mut Widgets, out: 
                 }
             }
         });
+        super::file_menu::show(ui, out);
         if ui.add_enabled(session.can_undo(), egui::Button::new("Undo")).on_hover_text("Ctrl+Z").clicked() {
             out.commands.push(Command::Undo);
         }

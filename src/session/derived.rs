@@ -18,6 +18,7 @@ pub struct Derived {
     failure: Option<String>,
     /// Revision whose analysis failed or was cancelled, so that it is not started again.
     given_up: Option<u64>,
+    elapsed_ms: Option<f64>,
     next_id: u64,
 }
 
@@ -45,6 +46,20 @@ impl Derived {
     /// Why the last computation broke off.
     pub fn failure(&self) -> Option<&str> {
         self.failure.as_deref()
+    }
+
+    /// How long the newest analysis took, in milliseconds, when the platform has a clock.
+    pub fn elapsed_ms(&self) -> Option<f64> {
+        self.elapsed_ms
+    }
+
+    /// Takes a reply together with the duration of its computation in milliseconds.
+    pub fn receive_timed(&mut self, reply: JobReply, elapsed_ms: Option<f64>) {
+        let awaited = self.running.as_ref().is_some_and(|job| job.id == reply.id);
+        if awaited && matches!(reply.outcome, Outcome::Analysis(_)) {
+            self.elapsed_ms = elapsed_ms;
+        }
+        self.receive(reply);
     }
 
     /// The next request, when nothing runs and something is out of date.

@@ -7,6 +7,7 @@ mod edit_plant;
 mod history;
 mod job;
 mod poles;
+mod start;
 mod state;
 mod update;
 
@@ -16,5 +17,6 @@ pub use derived::Derived;
 pub use history::History;
 pub use job::{JobReply, JobRequest, Outcome, Progress, Task, perform};
 pub use poles::poles_text;
+pub use start::{restored_view, view_text};
 pub use state::{Draft, Field, Message, Session, View};
 pub use update::{cell_name, unscaled, update};

@@ -13,14 +13,14 @@ use super::{DescriptorSystem, SystemError, TimeDomain};
 /// ```
 ///
 /// # Shapes
-/// `a`: n x n; `b`: n x m; `c`: m x n; `Gamma`: N x N; `Psi`: P x N; `c_G`: p_G x n; `c_L`: p_L x n.
+/// `a`: n x n; `b`: n x m; `c`: m x n; `Gamma`: N x N; `Psi`: P x N; `c_G` and `c_L`: any number of rows, n columns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Network {
-    /// State matrix of one subsystem (the paper's a_I).
+    /// State matrix of one subsystem (the paper's `a_I`).
     pub a: DMatrix<f64>,
-    /// Its coupling input (b_I).
+    /// Its coupling input (`b_I`).
     pub b: DMatrix<f64>,
-    /// Its coupling output (c_I).
+    /// Its coupling output (`c_I`).
     pub c: DMatrix<f64>,
     /// Coupling between subsystems.
     pub Gamma: DMatrix<f64>,
@@ -49,7 +49,7 @@ impl Network {
         if n == 0 {
             return Err(SystemError::NoStates);
         }
-        let needed: [(&'static str, &DMatrix<f64>, (usize, usize), &'static str); 7] = [
+        let needed = [
             ("a", &self.a, (n, n), "a is square"),
             ("b", &self.b, (n, m), "b has a row for each state of a subsystem"),
             ("c", &self.c, (m, n), "c has a row for each column of b and a column for each state"),

@@ -7,7 +7,7 @@
 //! | f | d | nf | unknown input |
 //! | y* | y | p | measured output |
 //! | E, A, B, N, C, y | [`Equivalent`] | r x n ... q x n | restricted system equivalent (4) |
-//! | z, f_hat | z of [`LinearObserver`] | n + nf or r + nf | observer state, the estimate of f behind z |
+//! | `z`, `f_hat` | z of [`LinearObserver`] | n + nf or r + nf | observer state, the estimate of f behind z |
 //! | F, L1, L2, L3, J, M1, T1, T2 | [`NamedMatrix`] of the same name | | observer (5) |
 //!
 //! The paper is in continuous time with `f' = 0` for the design; in discrete time `f[k+1] = f[k]` takes its place

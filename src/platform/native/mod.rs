@@ -1,13 +1,17 @@
-//! The native side: arguments, files and standard streams of the commands.
+//! The native side: threads, dialogs; arguments, files and standard streams of the commands.
 
 mod arguments;
+#[cfg(feature = "gui")]
+pub(super) mod dialogs;
 mod files;
+mod threads;
 
 use std::ffi::OsString;
 use std::io::{stderr, stdout};
 
 pub use arguments::parse;
 pub use files::NativeFiles;
+pub(super) use threads::ThreadRunner;
 
 use crate::headless;
 

@@ -1,0 +1,191 @@
+//! The existence conditions, live: formula, numbers, singular values, and why.
+
+use egui::{RichText, Sense, Stroke, Ui, vec2};
+
+use super::{Output, Widgets, formula, theme};
+use crate::numerics::RankDecision;
+use crate::observer::{Condition, Evidence, Verdict, show as show_number};
+use crate::paper::errata;
+use crate::session::Edit;
+
+/// Draws all conditions of an assessment.
+pub(super) fn show(ui: &mut Ui, conditions: &[Condition], widgets: &mut Widgets, out: &mut Output) {
+    for condition in conditions {
+        let fill = ui.visuals().faint_bg_color;
+        egui::Frame::new().fill(fill).corner_radius(5.0).inner_margin(7.0).show(ui, |ui| {
+            ui.set_min_width(ui.available_width());
+            one(ui, condition, widgets, out);
+        });
+    }
+}
+
+fn one(ui: &mut Ui, condition: &Condition, widgets: &mut Widgets, out: &mut Output) {
+    let colour = theme::verdict(ui, condition.verdict);
+    ui.horizontal_wrapped(|ui| {
+        lamp(ui, condition.verdict);
+        ui.label(RichText::new(&condition.label).strong());
+        ui.label(&condition.name);
+        ui.label(RichText::new(theme::verdict_word(condition.verdict)).color(colour).strong());
+        if !condition.needed {
+            ui.label(RichText::new("not needed here").small().color(theme::faint(ui)));
+        }
+        let open = widgets.open_condition.as_deref() == Some(condition.id.as_str());
+        let response = ui.selectable_label(open, "why");
+        response
+            .ctx
+            .accesskit_node_builder(response.id, |node| node.set_label(format!("Why {}", condition.label)));
+        if response.clicked() {
+            widgets.open_condition = if open { None } else { Some(condition.id.clone()) };
+        }
+    });
+    formula::show(ui, &condition.formula);
+    formula::remark(ui, &condition.summary);
+    if let Some(Evidence::Rank { decision, .. }) = condition.evidence.first() {
+        singular_values(ui, decision);
+    }
+    if widgets.open_condition.as_deref() == Some(condition.id.as_str()) || condition.verdict == Verdict::Fails
+    {
+        why(ui, condition, out);
+    }
+}
+
+/// A dot whose shape says the same as its colour: full, ring or cross.
+fn lamp(ui: &mut Ui, verdict: Verdict) {
+    let (rect, _) = ui.allocate_exact_size(vec2(12.0, 12.0), Sense::hover());
+    let (centre, painter) = (rect.center(), ui.painter());
+    let colour = theme::verdict(ui, verdict);
+    let stroke = Stroke::new(2.0, colour);
+    match verdict {
+        Verdict::Holds => {
+            painter.circle_filled(centre, 5.0, colour);
+        }
+        Verdict::Fragile | Verdict::Undecided => {
+            painter.circle_stroke(centre, 4.5, stroke);
+        }
+        Verdict::Fails => {
+            for tip in [vec2(4.0, 4.0), vec2(4.0, -4.0)] {
+                painter.line_segment([centre - tip, centre + tip], stroke);
+            }
+        }
+    }
+}
+
+fn why(ui: &mut Ui, condition: &Condition, out: &mut Output) {
+    if let Some(witness) = &condition.witness {
+        let names = witness.main_coordinates().join(", ");
+        let at = witness.s.map_or("An impulse".to_owned(), |s| format!("The mode s = {}", show_number(s)));
+        ui.label(RichText::new(format!("{at} along {names} is seen by no sensor.")).color(theme::bad(ui)));
+        let entries: Vec<String> = witness
+            .coordinates
+            .iter()
+            .zip(&witness.direction)
+            .filter(|(_, z)| z.norm() > 1e-9)
+            .map(|(name, z)| format!("{name} = {}", show_number(*z)))
+            .collect();
+        formula::remark(ui, &format!("direction: {}", entries.join(", ")));
+    }
+    for remedy in &condition.remedies {
+        ui.horizontal_wrapped(|ui| {
+            ui.label(format!("What would mend it: {remedy}"));
+            if let Some(state) = sensor(remedy)
+                && ui.button(format!("Add a sensor of x{}", state + 1)).clicked()
+            {
+                out.edit(Edit::AddSensor { state });
+            }
+        });
+    }
+    for evidence in &condition.evidence {
+        evidence_row(ui, evidence);
+    }
+    for erratum in errata("004").filter(|erratum| erratum.concerns == condition.id) {
+        formula::remark(
+            ui,
+            &format!(
+                "Misprint, {}: printed \"{}\", correct \"{}\". {}",
+                erratum.place, erratum.printed, erratum.correct, erratum.proof
+            ),
+        );
+    }
+    formula::remark(ui, &condition.source);
+}
+
+/// The state that a remedy proposes to measure, from zero.
+fn sensor(remedy: &str) -> Option<usize> {
+    let number = remedy.strip_prefix("measure x")?.split(':').next()?;
+    number.parse::<usize>().ok()?.checked_sub(1)
+}
+
+fn evidence_row(ui: &mut Ui, evidence: &Evidence) {
+    match evidence {
+        Evidence::Rank { of, decision, required } => {
+            formula::remark(
+                ui,
+                &format!(
+                    "{of}: rank {} of {required} needed; threshold {:.1e}, gap {}",
+                    decision.rank,
+                    decision.threshold,
+                    gap(decision.gap)
+                ),
+            );
+            singular_values(ui, decision);
+        }
+        Evidence::Points { of, points } => {
+            if points.is_empty() {
+                formula::remark(ui, &format!("{of}: no finite point loses rank"));
+            }
+            for point in points {
+                let state = match (point.loses_rank, point.stable) {
+                    (false, _) => "seen",
+                    (true, true) => "not seen, but stable",
+                    (true, false) => "not seen and not stable",
+                };
+                formula::remark(
+                    ui,
+                    &format!("s = {}: {state}, distance {:.1e}", show_number(point.s), point.distance),
+                );
+            }
+        }
+    }
+}
+
+fn gap(gap: f64) -> String {
+    if gap.is_infinite() { "infinite".to_owned() } else { format!("{gap:.1e}") }
+}
+
+/// Singular values as ticks on a logarithmic line, with the threshold.
+fn singular_values(ui: &mut Ui, decision: &RankDecision) {
+    let largest = decision.singular_values.first().copied().unwrap_or(0.0);
+    if largest <= 0.0 {
+        return;
+    }
+    let (rect, response) =
+        ui.allocate_exact_size(vec2(ui.available_width().min(320.0), 16.0), Sense::hover());
+    let painter = ui.painter();
+    let (low, high) = ((largest * 1e-18).log10(), largest.log10() + 0.3);
+    let x = |value: f64| {
+        let at = (value.max(largest * 1e-18).log10() - low) / (high - low);
+        #[expect(clippy::cast_possible_truncation, reason = "a position on the screen")]
+        let at = at as f32;
+        rect.left() + at * rect.width()
+    };
+    painter.hline(rect.x_range(), rect.center().y, Stroke::new(1.0, theme::faint(ui)));
+    for &value in &decision.singular_values {
+        let counted = value > decision.threshold;
+        let colour = if counted { theme::good(ui) } else { theme::bad(ui) };
+        painter.vline(x(value), rect.top() + 2.0..=rect.bottom() - 2.0, Stroke::new(3.0, colour));
+    }
+    let dashes = egui::Shape::dashed_line(
+        &[egui::pos2(x(decision.threshold), rect.top()), egui::pos2(x(decision.threshold), rect.bottom())],
+        Stroke::new(1.0, ui.visuals().text_color()),
+        3.0,
+        2.0,
+    );
+    painter.extend(dashes);
+    let values: Vec<String> = decision.singular_values.iter().map(|s| format!("{s:.3e}")).collect();
+    response.on_hover_text(format!(
+        "singular values {}\nthreshold {:.1e} (dashed), gap {}",
+        values.join(", "),
+        decision.threshold,
+        gap(decision.gap)
+    ));
+}
