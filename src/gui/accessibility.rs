@@ -1,5 +1,6 @@
 //! What a frame shows, as a list of widgets: for pages, where the toolkit itself tells screen readers nothing.
 
+use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 
 use egui::accesskit::{Node, NodeId, Role, Toggled, TreeUpdate};
@@ -127,30 +128,45 @@ fn state(node: &Node) -> Option<bool> {
 }
 
 fn widgets(update: &TreeUpdate, zoom: f64) -> Vec<Widget> {
+    let nodes: HashMap<NodeId, &Node> = update.nodes.iter().map(|(id, node)| (*id, node)).collect();
+    let place: HashMap<NodeId, usize> =
+        order(update, &nodes).into_iter().enumerate().map(|(k, id)| (id, k)).collect();
     let label_of = |id: &NodeId| {
-        let (_, node) = update.nodes.iter().find(|(other, _)| other == id)?;
+        let node = nodes.get(id)?;
         node.label().or_else(|| node.value())
     };
-    let mut widgets: Vec<Widget> = listed(update)
-        .map(|(id, role, rect, node)| {
-            let name = node.label().or_else(|| node.labelled_by().iter().find_map(label_of));
-            let number = || node.numeric_value().map(|value| value.to_string());
-            Widget {
-                id: format!("{:x}", id.0),
-                role,
-                name: name.unwrap_or_default().to_owned(),
-                value: node.value().map(str::to_owned).or_else(number).unwrap_or_default(),
-                disabled: node.is_disabled(),
-                checked: state(node),
-                rect: rect.map(|length| (length * zoom).round()),
-                focused: id == update.focus,
-            }
-        })
-        .filter(|widget| !(widget.role == "note" && widget.name.is_empty() && widget.value.is_empty()))
-        .collect();
-    // the order of reading: lines from top to bottom, each from left to right
-    widgets.sort_by(|a, b| a.rect[1].total_cmp(&b.rect[1]).then(a.rect[0].total_cmp(&b.rect[0])));
-    widgets
+    let widget = |(id, role, rect, node): (NodeId, &'static str, [f64; 4], &Node)| {
+        let name = node.label().or_else(|| node.labelled_by().iter().find_map(label_of));
+        let number = || node.numeric_value().map(|value| value.to_string());
+        Widget {
+            id: format!("{:x}", id.0),
+            role,
+            name: name.unwrap_or_default().to_owned(),
+            value: node.value().map(str::to_owned).or_else(number).unwrap_or_default(),
+            disabled: node.is_disabled(),
+            checked: state(node),
+            rect: rect.map(|length| (length * zoom).round()),
+            focused: id == update.focus,
+        }
+    };
+    let mut listed: Vec<_> = listed(update).collect();
+    listed.sort_by_key(|(id, ..)| place.get(id).copied().unwrap_or(usize::MAX));
+    let empty = |widget: &Widget| widget.role == "note" && widget.name.is_empty() && widget.value.is_empty();
+    listed.into_iter().map(widget).filter(|widget| !empty(widget)).collect()
+}
+
+/// The nodes as they follow each other in the tree: panel by panel, each in the order in which it was drawn.
+fn order(update: &TreeUpdate, nodes: &HashMap<NodeId, &Node>) -> Vec<NodeId> {
+    let mut order = Vec::with_capacity(nodes.len());
+    let mut open: Vec<NodeId> = update.tree.iter().map(|tree| tree.root).collect();
+    // a tree has no more nodes than there are: a damaged one ends there, too
+    while let Some(id) = open.pop().filter(|_| order.len() <= nodes.len()) {
+        order.push(id);
+        if let Some(node) = nodes.get(&id) {
+            open.extend(node.children().iter().rev());
+        }
+    }
+    order
 }
 
 #[cfg(all(test, not(target_arch = "wasm32")))]
