@@ -1,5 +1,6 @@
 //! The place of the figures as a person uses it.
 #![cfg(all(not(target_arch = "wasm32"), feature = "gui"))]
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use descry::gui::App;
 use descry::paper::EXAMPLES;
@@ -131,7 +132,11 @@ fn an_expression_that_is_not_understood_says_why_and_changes_nothing() {
     harness.key_press(egui::Key::Enter);
     harness.run();
     assert_eq!(signal(&harness), before, "the last good signal stays in force");
-    assert_eq!(harness.get_by_role_and_label(egui::Role::TextInput, "d1").value().as_deref(), Some("5+2*sin("), "the text is kept");
+    assert_eq!(
+        harness.get_by_role_and_label(egui::Role::TextInput, "d1").value().as_deref(),
+        Some("5+2*sin("),
+        "the text is kept"
+    );
     let field = Field::Signal(SignalList::Unknown, 0);
     let why = app(&harness).session().draft(&field).unwrap().error.clone();
     harness.get_by_label(&format!("d1: {why}"));
