@@ -92,7 +92,7 @@ pub fn panel_ui(ui: &mut Ui, panel: &Panel, place: &Place<'_>) {
                 ui.strong(&panel.title);
             }
             for (k, series) in panel.series.iter().enumerate().take(64) {
-                legend_entry(ui, series, (k, &mut hidden));
+                legend_entry(ui, series, id, (k, &mut hidden));
             }
         });
         let used = ui.cursor().top() - top;
@@ -109,14 +109,15 @@ fn is_hidden(hidden: u64, k: usize) -> bool {
 }
 
 /// A sample of the line and the name of the curve; a click hides the curve.
-fn legend_entry(ui: &mut Ui, series: &Series, (k, hidden): (usize, &mut u64)) {
+fn legend_entry(ui: &mut Ui, series: &Series, id: Id, (k, hidden): (usize, &mut u64)) {
     const SAMPLE: f32 = 22.0;
     let font = egui::TextStyle::Small.resolve(ui.style());
     let is_off = is_hidden(*hidden, k);
     let text_colour = if is_off { theme::faint(ui) } else { ui.visuals().text_color() };
     let galley = ui.painter().layout_no_wrap(series.name.clone(), font, text_colour);
     let size = vec2(SAMPLE + 4.0 + galley.size().x, galley.size().y.max(18.0));
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let (_, rect) = ui.allocate_space(size);
+    let response = ui.interact(rect, id.with(k), Sense::click());
     response.widget_info(|| egui::WidgetInfo::selected(Access::CheckBox, true, !is_off, &series.name));
     if response.clicked() {
         *hidden ^= 1 << k;
@@ -141,6 +142,7 @@ fn plot(ui: &mut Ui, panel: &Panel, place: &Place<'_>, (height, hidden): (f32, u
     // on a touch screen a finger over a plot scrolls the page; with a mouse a drag chooses what to enlarge
     let touch = ui.input(egui::InputState::has_touch_screen);
     let mut plot = Plot::new((place.id_salt, place.at))
+        .id(Id::unique(("plot", place.id_salt, place.at)))
         .width(place.size.x)
         .height(height)
         .sense(if touch { Sense::click() } else { Sense::click_and_drag() })

@@ -131,7 +131,9 @@ struct Memory {
 /// Draws the plane and turns drags and arrow keys into moved poles.
 pub fn pole_plane_ui(ui: &mut Ui, session: &Session, derived: &Derived, size: Vec2, out: &mut Output) {
     let poles = Poles::collect(session, derived);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
+    let (_, rect) = ui.allocate_space(size);
+    // an id of its own: remarks that come and go above it must not break off a drag
+    let response = ui.interact(rect, Id::unique("pole plane"), Sense::click_and_drag());
     ui.ctx().accesskit_node_builder(response.id, |node| {
         node.set_role(Role::Group);
         node.set_label("pole plane");
