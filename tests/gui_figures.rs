@@ -1,5 +1,6 @@
 //! The place of the figures as a person uses it.
 #![cfg(all(not(target_arch = "wasm32"), feature = "gui"))]
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use descry::gui::App;
 use descry::paper::EXAMPLES;

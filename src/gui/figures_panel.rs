@@ -35,17 +35,18 @@ pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Wid
             simulated(ui, analysis, |ui, simulation| figure_ui(ui, &simulation.unknown_input, "view"));
         }
         Tab::Poles => poles(ui, session, derived, out),
-        Tab::Bode => match &analysis.bode {
-            Some(figure) => figure_ui(ui, figure, "view"),
-            None => {
-                let why = match &analysis.simulation {
-                    Err(why) => why.as_str(),
-                    Ok(_) => "The system has no unknown input, so there is no response to show.",
-                };
-                ui.label(why);
-            }
-        },
+        Tab::Bode => bode(ui, analysis),
         Tab::Figures => {}
+    }
+}
+
+fn bode(ui: &mut Ui, analysis: &Analysis) {
+    match (&analysis.bode, &analysis.simulation) {
+        (Some(figure), _) => figure_ui(ui, figure, "view"),
+        (None, Err(why)) => no_simulation(ui, why),
+        (None, Ok(_)) => {
+            ui.label("The system has no unknown input, so there is no response to show.");
+        }
     }
 }
 
@@ -87,7 +88,10 @@ fn simulated(ui: &mut Ui, analysis: &Analysis, view: impl FnOnce(&mut Ui, &Simul
 fn no_simulation(ui: &mut Ui, why: &str) {
     ui.add_space(theme::BLOCK_GAP);
     ui.colored_label(theme::near(ui), RichText::new("Nothing to simulate").strong());
-    ui.label(why);
+    // reasons begin in lower case, since they also stand behind a colon
+    let mut letters = why.chars();
+    let first = letters.next().map(char::to_uppercase).into_iter().flatten();
+    ui.label(first.chain(letters).collect::<String>());
 }
 
 /// Root mean square errors, each in the colour of its quantity.
@@ -120,7 +124,7 @@ fn overview(ui: &mut Ui, (session, derived): (&Session, &Derived), analysis: &An
         let unknown = simulation.unknown_input.panels.iter().find(|panel| is_unknown_input(panel));
         let width = ui.available_width();
         let height = OVERVIEW_TOP.min(0.45 * ui.available_height()).max(170.0);
-        let beside = width > 560.0 && unknown.is_some();
+        let beside = width > 500.0 && unknown.is_some();
         let half = if beside { (width - theme::ITEM_GAP) / 2.0 } else { width };
         let draw_unknown = |ui: &mut Ui| {
             if let Some(panel) = unknown {
@@ -156,13 +160,13 @@ fn is_unknown_input(panel: &Panel) -> bool {
 
 /// The plane with lists of all poles beside it.
 fn poles(ui: &mut Ui, session: &Session, derived: &Derived, out: &mut Output) {
-    const LIST: f32 = 250.0;
+    const LIST: f32 = 200.0;
     let poles = Poles::collect(session, derived);
     ui.colored_label(
         theme::faint(ui),
-        "Drag a cross, or move a focused one by the arrow keys (Shift: finer). Conjugate pairs move together.",
+        "Drag a cross, or focus it and use the arrow keys (with Shift: finer).",
     );
-    if ui.available_width() > 620.0 {
+    if ui.available_width() > 540.0 {
         let size = vec2(ui.available_width() - LIST - theme::BLOCK_GAP, ui.available_height() - 4.0);
         ui.horizontal_top(|ui| {
             pole_plane_ui(ui, session, derived, size.max(vec2(200.0, 200.0)), out);
@@ -197,7 +201,7 @@ fn pole_lists(ui: &mut Ui, poles: &Poles) {
                 ui.monospace(show_pole(*value));
             }
         };
-        list(ui, "waiting: this order uses fewer poles", theme::faint(ui), &poles.wished[poles.used..]);
+        list(ui, "waiting, not used by this order", theme::faint(ui), &poles.wished[poles.used..]);
         list(ui, "fixed modes, which no gain moves", theme::near(ui), &poles.fixed);
         list(ui, "finite eigenvalues of the plant", theme::faint(ui), &poles.plant);
     });

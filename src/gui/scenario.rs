@@ -16,10 +16,11 @@ const SIGNAL_WIDTH: f32 = 150.0;
 pub fn show(ui: &mut Ui, session: &Session, widgets: &mut Widgets, out: &mut Output) {
     let document = session.document();
     let sizes = Sizes::of(document);
-    let tall = ui.ctx().content_rect().height() > 640.0;
+    let screen = ui.ctx().content_rect();
+    let roomy = screen.height() > 640.0 && screen.width() > theme::NARROW;
     CollapsingHeader::new(summary(&document.scenario, sizes.discrete))
         .id_salt("scenario")
-        .default_open(tall)
+        .default_open(roomy)
         .show_unindented(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 4.0;
             ui.horizontal_wrapped(|ui| levels(ui, &document.scenario, &sizes, out));
@@ -74,7 +75,7 @@ fn summary(scenario: &ScenarioData, discrete: bool) -> String {
     for (letter, signals) in [("u", &scenario.u), ("d", &scenario.d)] {
         for (k, signal) in signals.iter().enumerate().take(2) {
             let shown: String = signal.text().chars().take(28).collect();
-            text += &format!(", {letter}{} = {shown}", k + 1);
+            text.extend([", ", letter, &(k + 1).to_string(), " = ", &shown]);
         }
     }
     text
@@ -85,47 +86,61 @@ fn done(response: &Response) -> bool {
     !response.dragged()
 }
 
+/// Widgets that stay together when a line wraps.
+fn group(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui)) {
+    let size = egui::vec2(width.min(ui.max_rect().width()), ui.spacing().interact_size.y);
+    ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), content);
+}
+
 fn named(response: &Response, name: &str) {
     response.ctx.accesskit_node_builder(response.id, |node| node.set_label(name));
 }
 
 fn levels(ui: &mut Ui, scenario: &ScenarioData, sizes: &Sizes, out: &mut Output) {
-    let mut horizon = scenario.horizon;
-    let value = DragValue::new(&mut horizon)
-        .range(1e-3..=crate::document::limits::MAX_HORIZON)
-        .speed(if sizes.discrete { 0.5 } else { 0.01 * scenario.horizon.max(1e-3) })
-        .max_decimals(if sizes.discrete { 0 } else { 4 })
-        .suffix(if sizes.discrete { " steps" } else { " s" });
-    ui.label("Horizon");
-    let response = ui.add(value);
-    named(&response, "Horizon");
-    if response.changed() {
-        out.edit(Edit::Horizon(horizon));
-    }
-    if !sizes.discrete {
-        let mut samples = scenario.samples;
-        ui.label("samples");
-        let response = ui.add(DragValue::new(&mut samples).range(2..=20_000).speed(5.0));
-        named(&response, "Samples");
+    group(ui, 130.0, |ui| {
+        let mut horizon = scenario.horizon;
+        let value = DragValue::new(&mut horizon)
+            .range(1e-3..=crate::document::limits::MAX_HORIZON)
+            .speed(if sizes.discrete { 0.5 } else { 0.01 * scenario.horizon.max(1e-3) })
+            .max_decimals(if sizes.discrete { 0 } else { 4 })
+            .suffix(if sizes.discrete { " steps" } else { " s" });
+        ui.label("Horizon");
+        let response = ui.add(value);
+        named(&response, "Horizon");
         if response.changed() {
-            out.edit(Edit::Samples(samples));
+            out.edit(Edit::Horizon(horizon));
         }
+    });
+    if !sizes.discrete {
+        group(ui, 110.0, |ui| {
+            let mut samples = scenario.samples;
+            ui.label("samples");
+            let response = ui.add(DragValue::new(&mut samples).range(2..=20_000).speed(5.0));
+            named(&response, "Samples");
+            if response.changed() {
+                out.edit(Edit::Samples(samples));
+            }
+        });
     }
     if !sizes.editable {
         return;
     }
-    ui.spacing_mut().slider_width = 90.0;
-    noise(ui, scenario, sizes, out);
+    ui.spacing_mut().slider_width = 72.0;
+    group(ui, 175.0, |ui| noise(ui, scenario, sizes, out));
+    group(ui, 220.0, |ui| uncertainty(ui, scenario, out));
+}
+
+fn uncertainty(ui: &mut Ui, scenario: &ScenarioData, out: &mut Output) {
     let scale = scenario.uncertainty.as_ref().map_or(0.0, |data| data.scale);
     let mut wanted = scale;
     ui.label("uncertainty");
+    let slider = Slider::new(&mut wanted, 0.0..=10.0)
+        .clamping(egui::SliderClamping::Edits)
+        .prefix("x ")
+        .step_by(0.1)
+        .fixed_decimals(1);
     let response = ui
-        .add(
-            Slider::new(&mut wanted, 0.0..=10.0)
-                .clamping(egui::SliderClamping::Edits)
-                .prefix("x ")
-                .step_by(0.1),
-        )
+        .add(slider)
         .on_hover_text("Factor on the time-varying uncertainty of A, which the observer does not know");
     named(&response, "Uncertainty");
     if response.changed() && wanted != scale || response.drag_stopped() {
@@ -190,8 +205,7 @@ fn signals(
     for index in 0..count {
         let name = format!("{}{}", letter(list), index + 1);
         let shown = present.get(index).map_or("0", Signal::text);
-        // a field and its menu stay together when the line wraps
-        ui.horizontal(|ui| {
+        group(ui, SIGNAL_WIDTH + 88.0, |ui| {
             ui.label(format!("{name}(t) ="));
             let draft = session.draft(&Field::Signal(list, index));
             let id = Id::unique(("signal", list as u8, index));
