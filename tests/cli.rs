@@ -1,5 +1,6 @@
 //! The commands as a person runs them: answers, exit codes, files.
 #![cfg(not(target_arch = "wasm32"))]
+#![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail by panicking")]
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -260,7 +261,7 @@ fn assert_well_formed(svg: &str, id: &str) {
         assert!(!rest[..start].contains('>'), "{id}: stray `>`");
         let end = start + rest[start..].find('>').unwrap_or_else(|| panic!("{id}: tag without end"));
         let tag = &rest[start + 1..end];
-        assert!(tag.matches('"').count() % 2 == 0, "{id}: quotes of <{tag}>");
+        assert!(tag.matches('"').count().is_multiple_of(2), "{id}: quotes of <{tag}>");
         if let Some(name) = tag.strip_prefix('/') {
             assert_eq!(open.pop(), Some(name), "{id}: </{name}>");
         } else if !tag.ends_with('/') {
@@ -318,7 +319,16 @@ fn every_example_behaves_as_its_title_says() {
             assert_eq!(run(&[command, &file]).code, code, "{command} {key}");
         }
         let folder = out.join(key);
-        assert_eq!(run(&["figures", &file, "--out", folder.to_str().unwrap()]).code, code, "figures {key}");
+        let ran = run(&["figures", &file, "--out", folder.to_str().unwrap()]);
+        assert_eq!(ran.code, code, "figures {key}");
+        if code == 0 {
+            let report = ran.json();
+            let figures = report["figures"].as_array().unwrap();
+            assert!(
+                figures.iter().all(|figure| figure["notes"] == serde_json::json!([])),
+                "{key}: {figures:#?}"
+            );
+        }
     }
 }
 

@@ -96,13 +96,13 @@ impl App {
         let total = ui.available_width();
         let Self { session, derived, widgets, .. } = self;
         egui::Panel::left("system")
-            .default_size((total * 0.26).clamp(260.0, 420.0))
+            .default_size((total * 0.27).clamp(280.0, 440.0))
             .size_range(220.0..=620.0)
             .show(ui, |ui| {
                 scroll(ui, "system-scroll", |ui| system_panel::show(ui, session, derived, widgets, out));
             });
         egui::Panel::left("observer")
-            .default_size((total * 0.29).clamp(290.0, 460.0))
+            .default_size((total * 0.28).clamp(290.0, 440.0))
             .size_range(260.0..=700.0)
             .show(ui, |ui| {
                 scroll(ui, "observer-scroll", |ui| observer_panel::show(ui, session, derived, widgets, out));

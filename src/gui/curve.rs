@@ -3,7 +3,7 @@
 use egui::{Color32, Pos2, Rect, Shape, Stroke, Ui};
 use egui_plot::{PlotBounds, PlotGeometry, PlotItem, PlotItemBase, PlotTransform};
 
-use crate::paper::{Role, Series};
+use crate::paper::{Axis, Role, Series};
 
 /// A series on its way to the screen.
 pub(super) struct Curve<'a> {
@@ -11,17 +11,20 @@ pub(super) struct Curve<'a> {
     role: Role,
     colour: Color32,
     logarithmic: bool,
+    /// Points at least this far apart on the screen are marked.
+    marked: f64,
     base: PlotItemBase,
 }
 
 impl<'a> Curve<'a> {
-    /// A curve; with `logarithmic`, the horizontal coordinate of the plot is `log10` of the points' own.
-    pub(super) fn new(series: &'a Series, colour: Color32, logarithmic: bool) -> Self {
+    /// A curve; on a logarithmic axis the horizontal coordinate of the plot is `log10` of the points' own.
+    pub(super) fn new(series: &'a Series, colour: Color32, x: &Axis) -> Self {
         Self {
             points: &series.points,
             role: series.role,
             colour,
-            logarithmic,
+            logarithmic: x.logarithmic,
+            marked: if is_discrete(x) { 3.5 } else { 12.0 },
             base: PlotItemBase::new(series.name.clone()),
         }
     }
@@ -69,11 +72,7 @@ impl<'a> Curve<'a> {
             Role::Estimate | Role::Other => 2.0,
             Role::Error => 1.2,
         };
-        Stroke::new(if self.base_highlighted() { 2.0 * width } else { width }, self.colour)
-    }
-
-    fn base_highlighted(&self) -> bool {
-        PlotItem::highlighted(self)
+        Stroke::new(if PlotItem::highlighted(self) { 2.0 * width } else { width }, self.colour)
     }
 }
 
@@ -142,9 +141,8 @@ impl PlotItem for Curve<'_> {
         let frame = *transform.frame();
         let stroke = self.stroke();
         for run in self.runs(transform) {
-            // where points are far apart on the screen, each is marked: samples of discrete time, or a close look
             let width = run[run.len() - 1][0] - run[0][0];
-            if run.len() < 200 && width / run.len() as f64 > 9.0 {
+            if width / run.len() as f64 > self.marked {
                 for point in thinned(&run, frame.width()) {
                     shapes.push(Shape::circle_filled(point, 0.6 + stroke.width, stroke.color));
                 }
@@ -179,6 +177,11 @@ impl PlotItem for Curve<'_> {
     fn base_mut(&mut self) -> &mut PlotItemBase {
         &mut self.base
     }
+}
+
+/// Whether an axis counts steps of discrete time.
+pub(super) fn is_discrete(axis: &Axis) -> bool {
+    axis.label.starts_with('k')
 }
 
 /// The value of a curve at `x`, between its points; with `nearest`, the value of the nearest point.

@@ -12,8 +12,41 @@ pub fn cell_id(cell: Cell) -> Id {
     Id::unique(("cell", cell.matrix.letter(), cell.row, cell.column))
 }
 
+/// Draws two matrices, side by side where both fit; `F` only when there is something to feed through.
+pub(super) fn show_pair(
+    ui: &mut Ui,
+    session: &Session,
+    data: &DescriptorData,
+    pair: [Matrix; 2],
+    widgets: &mut Widgets,
+    out: &mut Output,
+) {
+    let shown = |matrix: &Matrix| *matrix != Matrix::F || data.matrix(*matrix).values().len() > 0;
+    let matrices: Vec<Matrix> = pair.into_iter().filter(shown).collect();
+    let least = |matrix: &Matrix| {
+        let columns = data.matrix(*matrix).shape().1.max(3) as f32;
+        2.0 * BRACKET + columns * (NARROWEST + GAP)
+    };
+    let needed: f32 = matrices.iter().map(|matrix| least(matrix) + theme::BLOCK_GAP).sum();
+    let room = ui.available_width();
+    if matrices.len() < 2 || needed > room {
+        for matrix in matrices {
+            show(ui, session, data, matrix, widgets, out);
+        }
+        return;
+    }
+    ui.horizontal_top(|ui| {
+        for matrix in matrices {
+            ui.vertical(|ui| {
+                ui.set_max_width(least(&matrix) / needed * room);
+                show(ui, session, data, matrix, widgets, out);
+            });
+        }
+    });
+}
+
 /// Draws one matrix with its name, its menu and its cells.
-pub(super) fn show(
+fn show(
     ui: &mut Ui,
     session: &Session,
     data: &DescriptorData,
@@ -50,6 +83,8 @@ pub(super) fn show(
     );
 }
 
+/// Width below which a cell does not show a usual number.
+const NARROWEST: f32 = 38.0;
 const ROW_HEIGHT: f32 = 24.0;
 const GAP: f32 = 3.0;
 /// Room for the brackets on both sides.
@@ -69,7 +104,7 @@ fn cells(ui: &mut Ui, sheet: Sheet<'_>, matrix: Matrix, widgets: &mut Widgets, o
     let (rows, columns) = data.matrix(matrix).shape();
     let wanted = theme::CELL_WIDTH;
     let fitting = (ui.available_width() - 2.0 * BRACKET) / columns as f32 - GAP;
-    let width = wanted.min(fitting.max(38.0));
+    let width = wanted.min(fitting.max(NARROWEST));
     let size = vec2(
         2.0 * BRACKET + columns as f32 * (width + GAP) - GAP,
         HEADER + rows as f32 * (ROW_HEIGHT + GAP) - GAP + 2.0,

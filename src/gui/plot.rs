@@ -1,9 +1,9 @@
 //! Draws figures: a grid of panels with linked axes, a legend that hides curves, and a read-out under the pointer.
 
-use egui::{Align2, FontId, Id, PointerButton, Pos2, Rect, Role as Access, Sense, Stroke, Ui, Vec2, vec2};
-use egui_plot::{GridInput, GridMark, Plot, PlotItem as _, PlotResponse};
+use egui::{Align2, FontId, Id, PointerButton, Pos2, Role as Access, Sense, Stroke, Ui, Vec2, vec2};
+use egui_plot::{AxisHints, GridInput, GridMark, Plot, PlotItem as _, PlotResponse};
 
-use super::curve::{Curve, line, value_at};
+use super::curve::{Curve, is_discrete, line, value_at};
 use super::theme;
 use crate::paper::{FigureSpec, Panel, Series};
 
@@ -51,13 +51,13 @@ pub fn panels_ui(ui: &mut Ui, panels: &[&Panel], columns: usize, id_salt: &str) 
     let height = ((ui.available_height() - gap) / rows as f32 - gap).max(LEAST_HEIGHT);
     let panel_width = (width - gap * (columns - 1) as f32) / columns as f32;
     for (row, row_panels) in panels.chunks(columns).enumerate() {
+        // a row with a panel that has none below it is labelled as a whole, so that its panels have one height
+        let x_label = (row + 1) * columns + row_panels.len() > panels.len();
         ui.horizontal_top(|ui| {
             ui.spacing_mut().item_spacing.x = gap;
             for (column, panel) in row_panels.iter().enumerate() {
                 let at = row * columns + column;
-                let last_in_column = at + columns >= panels.len();
-                let place = Place { id_salt, at, size: vec2(panel_width, height), x_label: last_in_column };
-                panel_ui(ui, panel, &place);
+                panel_ui(ui, panel, &Place { id_salt, at, size: vec2(panel_width, height), x_label });
             }
         });
     }
@@ -92,7 +92,7 @@ pub fn panel_ui(ui: &mut Ui, panel: &Panel, place: &Place<'_>) {
                 ui.strong(&panel.title);
             }
             for (k, series) in panel.series.iter().enumerate().take(64) {
-                legend_entry(ui, series, (k, &mut hidden));
+                legend_entry(ui, series, id, (k, &mut hidden));
             }
         });
         let used = ui.cursor().top() - top;
@@ -109,14 +109,15 @@ fn is_hidden(hidden: u64, k: usize) -> bool {
 }
 
 /// A sample of the line and the name of the curve; a click hides the curve.
-fn legend_entry(ui: &mut Ui, series: &Series, (k, hidden): (usize, &mut u64)) {
+fn legend_entry(ui: &mut Ui, series: &Series, id: Id, (k, hidden): (usize, &mut u64)) {
     const SAMPLE: f32 = 22.0;
     let font = egui::TextStyle::Small.resolve(ui.style());
     let is_off = is_hidden(*hidden, k);
     let text_colour = if is_off { theme::faint(ui) } else { ui.visuals().text_color() };
     let galley = ui.painter().layout_no_wrap(series.name.clone(), font, text_colour);
     let size = vec2(SAMPLE + 4.0 + galley.size().x, galley.size().y.max(18.0));
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let (_, rect) = ui.allocate_space(size);
+    let response = ui.interact(rect, id.with(k), Sense::click());
     response.widget_info(|| egui::WidgetInfo::selected(Access::CheckBox, true, !is_off, &series.name));
     if response.clicked() {
         *hidden ^= 1 << k;
@@ -141,6 +142,7 @@ fn plot(ui: &mut Ui, panel: &Panel, place: &Place<'_>, (height, hidden): (f32, u
     // on a touch screen a finger over a plot scrolls the page; with a mouse a drag chooses what to enlarge
     let touch = ui.input(egui::InputState::has_touch_screen);
     let mut plot = Plot::new((place.id_salt, place.at))
+        .id(Id::unique(("plot", place.id_salt, place.at)))
         .width(place.size.x)
         .height(height)
         .sense(if touch { Sense::click() } else { Sense::click_and_drag() })
@@ -151,21 +153,17 @@ fn plot(ui: &mut Ui, panel: &Panel, place: &Place<'_>, (height, hidden): (f32, u
         .boxed_zoom_pointer_button(PointerButton::Primary)
         .show_y(false)
         .set_margin_fraction(vec2(0.0, 0.07))
-        .y_axis_min_width(40.0)
-        .y_axis_formatter(|mark, _| tick(mark.value))
+        .custom_x_axes(vec![x_axis(ui, panel, place)])
+        .custom_y_axes(vec![y_axis(ui, panel)])
+        .y_grid_spacer(|input| lines(&input, 30.0))
+        .grid_color(theme::faint(ui).gamma_multiply(0.35))
+        .grid_fade(0.0)
         .link_axis(group, [true, false])
         .link_cursor(group, [true, false]);
-    if place.x_label {
-        plot = plot.x_axis_label(egui::RichText::new(&panel.x.label).small());
-    }
-    if !panel.y.label.is_empty() {
-        plot = plot.y_axis_label(egui::RichText::new(&panel.y.label).small());
-    }
     plot = if logarithmic {
         plot.x_grid_spacer(decades)
-            .x_axis_formatter(|mark, range| decade(mark.value, range.end() - range.start()))
     } else {
-        plot.x_axis_formatter(|mark, _| tick(mark.value))
+        plot.x_grid_spacer(|input| lines(&input, 56.0))
     };
     if let Some([low, high]) = panel.x.range {
         let place = |x: f64| if logarithmic { x.log10() } else { x };
@@ -178,7 +176,7 @@ fn plot(ui: &mut Ui, panel: &Panel, place: &Place<'_>, (height, hidden): (f32, u
         .iter()
         .enumerate()
         .filter(|(k, _)| !is_hidden(hidden, *k))
-        .map(|(_, series)| Curve::new(series, theme::series(ui, series.colour), logarithmic))
+        .map(|(_, series)| Curve::new(series, theme::series(ui, series.colour), &panel.x))
         .collect();
     if let Some([low, high]) = panel.y.range {
         plot = plot.default_y_bounds(low, high);
@@ -193,6 +191,28 @@ fn plot(ui: &mut Ui, panel: &Panel, place: &Place<'_>, (height, hidden): (f32, u
         node.set_label(format!("plot {name}: {}", names.join(", ")));
     });
     read_out(ui, panel, hidden, &response);
+}
+
+fn x_axis<'a>(ui: &Ui, panel: &Panel, place: &Place<'_>) -> AxisHints<'a> {
+    let width = f64::from((place.size.x - 50.0).max(50.0));
+    let logarithmic = panel.x.logarithmic;
+    let label = if place.x_label { panel.x.label.as_str() } else { "" };
+    axis(ui, AxisHints::new_x(), label).formatter(move |mark, range| {
+        if logarithmic { decade(mark.value, range.end() - range.start(), width) } else { tick(mark.value) }
+    })
+}
+
+fn y_axis<'a>(ui: &Ui, panel: &Panel) -> AxisHints<'a> {
+    axis(ui, AxisHints::new_y(), &panel.y.label).min_thickness(38.0).formatter(|mark, _| tick(mark.value))
+}
+
+fn axis<'a>(ui: &Ui, hints: AxisHints<'a>, label: &str) -> AxisHints<'a> {
+    let small = egui::TextStyle::Small.resolve(ui.style());
+    hints
+        .label(egui::RichText::new(label).small())
+        .label_spacing(4.0..=5.0)
+        .tick_label_font(small)
+        .tick_label_color(theme::faint(ui))
 }
 
 /// Limits around curves that hardly vary, so that rounding errors are not blown up to the height of the plot.
@@ -214,7 +234,7 @@ fn widened(curves: &[Curve<'_>]) -> Option<[f64; 2]> {
 fn read_out(ui: &Ui, panel: &Panel, hidden: u64, response: &PlotResponse<()>) {
     let Some(pointer) = response.response.hover_pos() else { return };
     let at = response.transform.value_from_position(pointer).x;
-    let discrete = panel.x.label.starts_with('k');
+    let discrete = is_discrete(&panel.x);
     let x = if panel.x.logarithmic { 10_f64.powf(at) } else { at };
     let x = if discrete && !panel.x.logarithmic { x.round() } else { x };
     let quantity = panel.x.label.split([' ', '(']).next().unwrap_or("x");
@@ -238,7 +258,7 @@ fn read_out(ui: &Ui, panel: &Panel, hidden: u64, response: &PlotResponse<()>) {
     let left = pointer.x > frame.center().x;
     let (anchor, corner) =
         if left { (Align2::LEFT_TOP, inner.left_top()) } else { (Align2::RIGHT_TOP, inner.right_top()) };
-    let rect: Rect = anchor.anchor_size(corner, size);
+    let rect = anchor.anchor_size(corner, size);
     painter.rect_filled(rect.expand(4.0), 4.0, ui.visuals().window_fill.gamma_multiply(0.88));
     let mut top = rect.min;
     for (galley, colour) in galleys {
@@ -275,29 +295,54 @@ fn tick(value: f64) -> String {
     }
 }
 
-/// Lines of a logarithmic axis: decades, and 2 to 9 between them.
+/// Grid lines at multiples of 1, 2 or 5 times a power of ten, at least `apart` points from each other.
+fn lines(input: &GridInput, apart: f64) -> Vec<GridMark> {
+    // the plot gives eight points as its finest step
+    let step = round_step(input.base_step_size / 8.0 * apart);
+    multiples(step, input.bounds.0, input.bounds.1)
+        .into_iter()
+        .map(|value| GridMark { value, step_size: step })
+        .collect()
+}
+
+/// The nearest of 1, 2, 5 times a power of ten, upwards.
+pub(super) fn round_step(least: f64) -> f64 {
+    let unit = 10_f64.powf(least.clamp(1e-300, 1e300).log10().floor());
+    [1.0, 2.0, 5.0].into_iter().map(|factor| factor * unit).find(|step| *step >= least).unwrap_or(10.0 * unit)
+}
+
+/// The multiples of a step between two limits.
+pub(super) fn multiples(step: f64, low: f64, high: f64) -> Vec<f64> {
+    let first = (low / step - 1e-9).ceil();
+    let count = (high / step + 1e-9).floor() - first;
+    // adding zero turns -0 into 0
+    (0..=200_u8).map(f64::from).take_while(|k| *k <= count).map(|k| (first + k) * step + 0.0).collect()
+}
+
+/// Lines of a logarithmic axis: decades, and 2 to 9 between them where few decades are shown.
 #[expect(clippy::needless_pass_by_value, reason = "the signature of a grid spacer")]
 fn decades(input: GridInput) -> Vec<GridMark> {
     let (low, high) = input.bounds;
-    #[expect(clippy::cast_possible_truncation, reason = "exponents of doubles, clamped")]
-    let (first, last) = (low.floor().max(-320.0) as i32, high.ceil().min(320.0) as i32);
+    let digits = if high - low > 3.0 { 1..2_u8 } else { 1..10 };
     let mut marks = Vec::new();
-    for k in first..=last {
-        marks.push(GridMark { value: f64::from(k), step_size: 1.0 });
-        for digit in 2..10_u8 {
-            let value = f64::from(k) + f64::from(digit).log10();
-            marks.push(GridMark { value, step_size: 0.12 });
+    for decade in multiples(1.0, low.floor(), high) {
+        for digit in digits.clone() {
+            let value = decade + f64::from(digit).log10();
+            marks.push(GridMark { value, step_size: if digit == 1 { 1.0 } else { 0.3 } });
         }
     }
-    marks.retain(|mark| (low..=high).contains(&mark.value));
+    marks.retain(|mark| (low - 1e-9..=high + 1e-9).contains(&mark.value));
     marks
 }
 
-/// Label of a line of a logarithmic axis; only decades have one, unless hardly more than one is shown.
-fn decade(value: f64, span: f64) -> String {
+/// Label of a line of a logarithmic axis that shows `span` decades on `width` points.
+///
+/// Only decades have one, at least 44 points apart, unless hardly more than one decade is shown.
+fn decade(value: f64, span: f64, width: f64) -> String {
     let nearest = value.round();
     let whole = (value - nearest).abs() < 1e-9;
-    if span > 8.0 && nearest.rem_euclid(2.0) > 0.5 || !whole && span > 1.2 {
+    let every = (44.0 * span / width).ceil().max(1.0);
+    if whole && nearest.rem_euclid(every) > 0.5 || !whole && span > 1.2 {
         return String::new();
     }
     if (-3.5..4.5).contains(&value) { short(10_f64.powf(value)) } else { format!("1e{nearest}") }
@@ -311,30 +356,32 @@ mod tests {
     fn numbers_are_short() {
         let shown = [0.0, 0.5, -22.0, 1.0 / 3.0, 1e-7, 123_456.0].map(short);
         assert_eq!(shown, ["0", "0.5", "-22", "0.3333", "1.00e-7", "1.23e5"], "four digits at most");
-        assert_eq!(
-            [0.30000000000000004, 1e6, 5e-17].map(tick),
-            ["0.3", "1e6", "0"],
-            "ticks without rounding errors"
-        );
+        assert_eq!([0.1 + 0.2, 1e6, 5e-17].map(tick), ["0.3", "1e6", "0"], "ticks without rounding errors");
     }
 
     #[test]
     fn logarithmic_axes_are_labelled_at_decades() {
         assert_eq!(
-            [-2.0, 0.0, 3.0, 6.0].map(|v| decade(v, 5.0)),
+            [-2.0, 0.0, 3.0, 6.0].map(|v| decade(v, 5.0, 400.0)),
             ["0.01", "1", "1000", "1e6"],
             "powers of ten"
         );
-        assert_eq!(decade(2_f64.log10(), 5.0), "", "no label between decades");
-        assert_eq!(decade(2_f64.log10(), 1.0), "2", "unless hardly a decade is shown");
+        assert_eq!(decade(2_f64.log10(), 5.0, 400.0), "", "no label between decades");
+        assert_eq!(decade(2_f64.log10(), 1.0, 400.0), "2", "unless hardly a decade is shown");
         let marks = decades(GridInput { bounds: (-0.5, 1.0), base_step_size: 0.1 });
         assert_eq!(marks.iter().filter(|mark| mark.step_size == 1.0).count(), 2, "1 and 10");
     }
 
     #[test]
+    fn steps_are_round() {
+        assert_eq!([0.7, 1.0, 1.3, 3.0, 7.0].map(round_step), [1.0, 1.0, 2.0, 5.0, 10.0], "1, 2, 5");
+        assert_eq!(multiples(2.0, -3.0, 6.0), [-2.0, 0.0, 2.0, 4.0, 6.0], "with both ends");
+    }
+
+    #[test]
     fn a_constant_gets_room() {
         let series = Series { points: vec![[0.0, 5.0], [1.0, 5.0 + 1e-13]], ..Series::default() };
-        let curve = [Curve::new(&series, egui::Color32::BLACK, false)];
+        let curve = [Curve::new(&series, egui::Color32::BLACK, &crate::paper::Axis::default())];
         let [low, high] = widened(&curve).expect("widened");
         assert!(low < 4.6 && high > 5.4, "a tenth on either side: {low} {high}");
     }

@@ -2,6 +2,7 @@
 
 use egui::{Align2, FontId, Id, Key, Pos2, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, vec2};
 
+use super::plot::{multiples, round_step, short};
 use super::{Output, theme};
 use crate::document::PlantData;
 use crate::numerics::Complex64;
@@ -130,7 +131,9 @@ struct Memory {
 /// Draws the plane and turns drags and arrow keys into moved poles.
 pub fn pole_plane_ui(ui: &mut Ui, session: &Session, derived: &Derived, size: Vec2, out: &mut Output) {
     let poles = Poles::collect(session, derived);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
+    let (_, rect) = ui.allocate_space(size);
+    // an id of its own: remarks that come and go above it must not break off a drag
+    let response = ui.interact(rect, Id::unique("pole plane"), Sense::click_and_drag());
     ui.ctx().accesskit_node_builder(response.id, |node| {
         node.set_role(Role::Group);
         node.set_label("pole plane");
@@ -320,12 +323,6 @@ fn node_id(plane: Id, k: usize) -> Id {
     plane.with(("pole", k))
 }
 
-/// The nearest of 1, 2, 5 times a power of ten, upwards.
-fn round_step(least: f64) -> f64 {
-    let unit = 10_f64.powf(least.max(1e-300).log10().floor());
-    [1.0, 2.0, 5.0].into_iter().map(|factor| factor * unit).find(|step| *step >= least).unwrap_or(10.0 * unit)
-}
-
 /// The unstable region, the grid, the axes and the unit circle.
 fn background(ui: &Ui, rect: Rect, view: &View, discrete: bool) {
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
@@ -355,25 +352,18 @@ fn background(ui: &Ui, rect: Rect, view: &View, discrete: bool) {
         let x = view.screen(Complex64::new(value, 0.0), rect).x;
         painter.vline(x, rect.y_range(), if value == 0.0 { axis } else { faint });
         let at = Pos2::new(x + 3.0, rect.bottom() - 2.0);
-        painter.text(at, Align2::LEFT_BOTTOM, super::plot::short(value), font.clone(), theme::faint(ui));
+        painter.text(at, Align2::LEFT_BOTTOM, short(value), font.clone(), theme::faint(ui));
     }
     for value in multiples(step, low.im, high.im) {
         let y = view.screen(Complex64::new(0.0, value), rect).y;
         painter.hline(rect.x_range(), y, if value == 0.0 { axis } else { faint });
         if value != 0.0 {
             let at = Pos2::new(rect.right() - 4.0, y - 1.0);
-            let text = format!("{}i", super::plot::short(value));
+            let text = format!("{}i", short(value));
             painter.text(at, Align2::RIGHT_BOTTOM, text, font.clone(), theme::faint(ui));
         }
     }
     painter.rect_stroke(rect, 4.0, ui.visuals().widgets.noninteractive.bg_stroke, StrokeKind::Inside);
-}
-
-fn multiples(step: f64, low: f64, high: f64) -> Vec<f64> {
-    #[expect(clippy::cast_possible_truncation, reason = "a few dozen grid lines")]
-    let range = (low / step).ceil() as i64..=(high / step).floor() as i64;
-    // adding zero turns -0 into 0
-    range.take(200).map(|k| k as f64 * step + 0.0).collect()
 }
 
 /// Eigenvalues of the plant as squares, fixed modes as rings.
@@ -426,10 +416,5 @@ mod tests {
         assert!(view.suits(real(&[-18.0, -9.0]).needed(), size), "small moves keep the view");
         assert!(!view.suits(real(&[-40.0, -10.0]).needed(), size), "a pole outside");
         assert!(!view.suits(real(&[-2.0, -1.0]).needed(), size), "poles in a corner");
-    }
-
-    #[test]
-    fn steps_are_round() {
-        assert_eq!([0.7, 1.0, 1.3, 3.0, 7.0].map(round_step), [1.0, 1.0, 2.0, 5.0, 10.0], "1, 2, 5");
     }
 }

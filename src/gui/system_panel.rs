@@ -19,13 +19,9 @@ pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Wid
             equations(ui, data);
             time_and_sizes(ui, data, out);
             ui.add_space(theme::ITEM_GAP);
-            for matrix in Matrix::ALL {
-                let (rows, columns) = data.matrix(matrix).shape();
-                let hidden = matrix == Matrix::F && (rows == 0 || columns == 0);
-                if !hidden {
-                    matrix_grid::show(ui, session, data, matrix, widgets, out);
-                    ui.add_space(theme::ITEM_GAP);
-                }
+            for pair in [[Matrix::E, Matrix::A], [Matrix::B, Matrix::D], [Matrix::C, Matrix::F]] {
+                matrix_grid::show_pair(ui, session, data, pair, widgets, out);
+                ui.add_space(theme::ITEM_GAP);
             }
         }
         PlantData::Network(_) => {
@@ -91,9 +87,12 @@ fn time_and_sizes(ui: &mut Ui, data: &DescriptorData, out: &mut Output) {
     if e.0 != e.1 {
         sizes.insert(1, (Size::Equations, "equations", e.0));
     }
-    ui.horizontal_wrapped(|ui| {
-        for (of, name, count) in sizes {
+    egui::Grid::new("sizes").num_columns(2).spacing([theme::ITEM_GAP, 4.0]).show(ui, |ui| {
+        for (k, (of, name, count)) in sizes.into_iter().enumerate() {
             stepper(ui, of, name, count, out);
+            if k % 2 == 1 {
+                ui.end_row();
+            }
         }
     });
 }

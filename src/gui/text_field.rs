@@ -30,9 +30,14 @@ pub fn text_field(
             node.set_description(draft.error.as_str());
         }
     });
-    if draft.is_some() {
-        let rounding = ui.visuals().widgets.inactive.corner_radius;
-        ui.painter().rect_stroke(response.rect, rounding, theme::error_stroke(ui), egui::StrokeKind::Inside);
+    let rounding = ui.visuals().widgets.inactive.corner_radius;
+    let outline = if draft.is_some() {
+        theme::error_stroke(ui)
+    } else {
+        egui::Stroke::new(1.0, theme::faint(ui).gamma_multiply(0.4))
+    };
+    if draft.is_some() || !response.has_focus() {
+        ui.painter().rect_stroke(response.rect, rounding, outline, egui::StrokeKind::Inside);
     }
     if response.has_focus() {
         if response.changed() {

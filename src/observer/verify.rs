@@ -80,7 +80,7 @@ pub fn verify(
         Verification { checks: identities(system, observer, claim, tolerance), ..Verification::default() };
     result.spectrum = eigenvalues(&observer.N)?;
     let region = StabilityRegion::of(system.time == TimeDomain::Discrete);
-    let size = expected_spectrum.iter().map(|z| z.norm()).fold(f64::MIN_POSITIVE, f64::max);
+    let size = spectrum_size(expected_spectrum, observer, region);
     result.checks.push(Check {
         name: "spectrum".to_owned(),
         statement: "eigenvalues of the error dynamics = requested poles and fixed modes".to_owned(),
@@ -102,6 +102,17 @@ pub fn verify(
         ),
     }
     Ok(result)
+}
+
+/// What a distance between spectra is relative to: the largest expected eigenvalue, but no less than the unit disk in
+/// discrete time, where deadbeat poles are zero; the size of `N` when all are zero in continuous time.
+fn spectrum_size(expected: &[Complex64], observer: &LinearObserver, region: StabilityRegion) -> f64 {
+    let largest = expected.iter().map(|z| z.norm()).fold(0.0, f64::max);
+    match region {
+        StabilityRegion::UnitDisk => largest.max(1.0),
+        StabilityRegion::LeftHalfPlane if largest == 0.0 => observer.N.norm().max(f64::MIN_POSITIVE),
+        StabilityRegion::LeftHalfPlane => largest,
+    }
 }
 
 /// Residuals of the claimed identities, each relative to the sum of its terms' norms.
@@ -320,6 +331,19 @@ mod tests {
         let result = verify(&system, &observer, &claim, &poles(), &Tolerance::default()).unwrap();
         assert!(result.verified(), "all checks pass: {:?}", result.checks);
         assert!(result.skipped.is_empty(), "a regular plant has a transfer function");
+    }
+
+    #[test]
+    fn deadbeat_poles_are_judged_against_the_unit_disk() {
+        // eigenvalues of a defective matrix are good to the square root of the rounding only
+        let (mut system, mut observer, claim) = luenberger([0.0, 0.0]);
+        system.time = TimeDomain::Discrete;
+        system.A = dmatrix![1.0, 1.0; 0.0, 1.0];
+        observer.L = dmatrix![2.0; 1.0];
+        observer.N = &system.A - &observer.L * &system.C;
+        let zeros = [Complex64::ZERO; 2];
+        let result = verify(&system, &observer, &claim, &zeros, &Tolerance::default()).unwrap();
+        assert!(result.verified(), "both poles at zero: {:?}", result.checks);
     }
 
     #[test]

@@ -44,7 +44,7 @@ pub(super) fn pieces(points: &[[f64; 2]], x: &Scale, y: &Scale, frame: &Frame) -
     let mut last: Option<[f64; 2]> = None;
     let mut joined = false;
     for &[px, py] in points {
-        let here = x.pixel(px).zip(y.pixel(py)).map(|(a, b)| [a, b]);
+        let here = x.pixel(px).and_then(|x| y.pixel(py).map(|y| [x, y]));
         let segment = last.zip(here).and_then(|(a, b)| Some((frame.clip(a, b)?, b)));
         match (segment, pieces.last_mut()) {
             (Some(([_, to], end)), Some(piece)) if joined => {

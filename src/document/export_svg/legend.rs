@@ -48,7 +48,7 @@ fn fitting_rows(count: usize, frame: &Frame) -> usize {
 fn best_place([wide, high]: [f64; 2], frame: &Frame, curves: &[Vec<[f64; 2]>]) -> Frame {
     let (right, bottom) = (frame.right - MARGIN - wide, frame.bottom - MARGIN - high);
     let (left, top) = (frame.left + MARGIN, frame.top + MARGIN);
-    let (middle, centre) = ((left + right) / 2.0, (top + bottom) / 2.0);
+    let (middle, centre) = (f64::midpoint(left, right), f64::midpoint(top, bottom));
     let corners = [
         [right, top],
         [right, bottom],

@@ -43,8 +43,10 @@ pub fn figure_to_svg(figure: &FigureSpec) -> String {
         w = decimal(width),
         h = decimal(height)
     );
-    svg.push_str(&format!("<title>{}</title>\n", text::escape(&figure.title)));
-    svg.push_str(&format!("<desc>{}</desc>\n", text::escape(&figure.caption)));
+    for (tag, content) in [("title", &figure.title), ("desc", &figure.caption)] {
+        let content = text::escape(content);
+        svg.extend(["<", tag, ">", &content, "</", tag, ">\n"]);
+    }
     svg.push_str("<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n");
     for (i, line) in titles.iter().enumerate() {
         let y = BORDER + TITLE * 1.4_f64.mul_add(i as f64, 0.9);

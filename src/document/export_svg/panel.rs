@@ -33,18 +33,30 @@ pub(super) fn panel(panel: &Panel, outer: &Frame) -> String {
             svg.push_str(&Stroke::of(series, &panel.series).path(&path(pieces)));
         }
     }
-    svg.push_str(&format!(
-        "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#444\" stroke-width=\"0.8\"/>\n",
-        decimal(frame.left),
-        decimal(frame.top),
-        decimal(frame.right - frame.left),
-        decimal(frame.bottom - frame.top)
-    ));
+    svg.push_str(&border(&frame));
     names(&mut svg, panel, outer, &frame);
     let entries = legend_entries(panel);
     svg.push_str(&legend(&entries, &frame, &curves.concat()));
     svg.push_str("</g>\n");
     svg
+}
+
+/// The box of the axes.
+fn border(frame: &Frame) -> String {
+    format!(
+        "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#444\" stroke-width=\"0.8\"/>\n",
+        decimal(frame.left),
+        decimal(frame.top),
+        decimal(frame.right - frame.left),
+        decimal(frame.bottom - frame.top)
+    )
+}
+
+/// A line of the grid.
+fn grid_line(from: [f64; 2], to: [f64; 2], major: bool) -> String {
+    let (colour, width) = if major { ("#d0d0d0", "0.6") } else { ("#ececec", "0.5") };
+    let [ax, ay, bx, by] = [from[0], from[1], to[0], to[1]].map(decimal);
+    format!("<path d=\"M{ax} {ay}L{bx} {by}\" stroke=\"{colour}\" stroke-width=\"{width}\"/>\n")
 }
 
 /// Named curves, unless there is a single one that the title already names.
@@ -59,7 +71,7 @@ fn legend_entries(panel: &Panel) -> Vec<(&str, Stroke)> {
 }
 
 fn names(svg: &mut String, panel: &Panel, outer: &Frame, frame: &Frame) {
-    let (middle, centre) = ((frame.left + frame.right) / 2.0, (frame.top + frame.bottom) / 2.0);
+    let (middle, centre) = (f64::midpoint(frame.left, frame.right), f64::midpoint(frame.top, frame.bottom));
     if !panel.title.is_empty() {
         svg.push_str(&text::bold([middle, frame.top - 7.0], LABEL, Anchor::Middle, &panel.title));
     }
@@ -73,26 +85,15 @@ fn names(svg: &mut String, panel: &Panel, outer: &Frame, frame: &Frame) {
 
 /// Grid lines and tick labels.
 fn grid(svg: &mut String, x: &Scale, y: &Scale, frame: &Frame) {
-    let mut line = |from: [f64; 2], to: [f64; 2], major: bool| {
-        svg.push_str(&format!(
-            "<path d=\"M{} {}L{} {}\" stroke=\"{}\" stroke-width=\"{}\"/>\n",
-            decimal(from[0]),
-            decimal(from[1]),
-            decimal(to[0]),
-            decimal(to[1]),
-            if major { "#d0d0d0" } else { "#ececec" },
-            if major { "0.6" } else { "0.5" },
-        ));
-    };
     let (mut horizontal, mut vertical) = (x.usual_ticks(), y.ticks(30.0));
     // the minor grid lies beneath the major one
     horizontal.sort_by_key(|tick| tick.label.is_some());
     vertical.sort_by_key(|tick| tick.label.is_some());
     for (tick, at) in horizontal.iter().filter_map(|tick| Some((tick, x.pixel(tick.value)?))) {
-        line([at, frame.top], [at, frame.bottom], tick.label.is_some());
+        svg.push_str(&grid_line([at, frame.top], [at, frame.bottom], tick.label.is_some()));
     }
     for (tick, at) in vertical.iter().filter_map(|tick| Some((tick, y.pixel(tick.value)?))) {
-        line([frame.left, at], [frame.right, at], tick.label.is_some());
+        svg.push_str(&grid_line([frame.left, at], [frame.right, at], tick.label.is_some()));
     }
     for tick in &horizontal {
         if let (Some(label), Some(at)) = (&tick.label, x.pixel(tick.value)) {

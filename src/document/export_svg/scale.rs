@@ -136,9 +136,9 @@ fn digits(x: f64, exponent: i32, size: f64) -> String {
 fn decades(low: f64, high: f64, room: f64) -> Vec<Tick> {
     #[expect(clippy::cast_possible_truncation, reason = "exponents of finite numbers are small")]
     let (first, last) = (low.log10().floor() as i32, high.log10().ceil() as i32);
-    let count = f64::from(last - first).max(1.0);
+    let (mantissa, exponent) = nice_step((f64::from(last - first) / room).max(1.0));
     #[expect(clippy::cast_possible_truncation, reason = "at most some hundred decades")]
-    let every = (count / room).ceil().max(1.0) as i32;
+    let every = (mantissa * power(exponent)) as i32;
     let mut ticks = Vec::new();
     for exponent in first..=last {
         let major = exponent.rem_euclid(every) == 0;
@@ -180,7 +180,11 @@ mod tests {
         assert_eq!(labels([0.1, 1e5], true), ["1e-1", "1e0", "1e1", "1e2", "1e3", "1e4", "1e5"]);
         let ticks = Scale::new([0.1, 1e5], true, [0.0, 300.0]).usual_ticks();
         assert_eq!(ticks.len(), 7 + 6 * 8, "eight minor lines in each of six decades");
-        assert_eq!(labels([1e-20, 1e20], true).len(), 6, "no more labels than there is room for");
+        assert_eq!(
+            labels([1e-20, 1e20], true),
+            ["1e-20", "1e-10", "1e0", "1e10", "1e20"],
+            "no more than there is room for"
+        );
     }
 
     #[test]
