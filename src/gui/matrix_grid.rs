@@ -58,11 +58,8 @@ fn show(
     let (rows, columns) = data.matrix(matrix).shape();
     ui.horizontal(|ui| {
         ui.label(RichText::new(matrix.letter()).strong().size(16.0));
-        ui.label(
-            RichText::new(format!("{}, {rows} x {columns}", matrix.meaning()))
-                .small()
-                .color(theme::faint(ui)),
-        );
+        let about = RichText::new(format!("{rows} x {columns}")).small().color(theme::faint(ui));
+        ui.label(about).on_hover_text(matrix.meaning());
         menu(ui, data, matrix, out);
     });
     if rows == 0 || columns == 0 {
