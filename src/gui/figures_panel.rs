@@ -74,10 +74,10 @@ fn shown_figure<'a>(session: &Session, derived: &'a Derived) -> Option<&'a Figur
         Tab::States => simulation.map(|simulation| &simulation.states),
         Tab::Errors => simulation.map(|simulation| &simulation.errors),
         Tab::UnknownInput => simulation.map(|simulation| &simulation.unknown_input),
-        Tab::Bode => analysis.and_then(|analysis| analysis.bode.as_ref()),
+        Tab::Bode => analysis?.bode.as_ref(),
         Tab::Figures => {
             let id = session.view().figure.as_deref()?;
-            derived.figure(id).and_then(|figure| figure.as_ref().ok())
+            derived.figure(id)?.as_ref().ok()
         }
     }
 }

@@ -21,7 +21,7 @@ pub(super) fn show_pair(
     widgets: &mut Widgets,
     out: &mut Output,
 ) {
-    let shown = |matrix: &Matrix| *matrix != Matrix::F || data.matrix(*matrix).values().len() > 0;
+    let shown = |matrix: &Matrix| *matrix != Matrix::F || !data.matrix(*matrix).values().is_empty();
     let matrices: Vec<Matrix> = pair.into_iter().filter(shown).collect();
     let least = |matrix: &Matrix| {
         let columns = data.matrix(*matrix).shape().1.max(3) as f32;

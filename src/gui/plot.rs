@@ -48,7 +48,7 @@ pub fn panels_ui(ui: &mut Ui, panels: &[&Panel], columns: usize, id_salt: &str) 
     let fitting = ((width + gap) / (LEAST_WIDTH + gap)).floor().max(1.0) as usize;
     let wished = columns.clamp(1, panels.len().max(1));
     // where not all fit, an even share keeps related panels below each other
-    let columns = (1..=wished).rev().find(|k| *k <= fitting && wished % k == 0).unwrap_or(1);
+    let columns = (1..=wished).rev().find(|k| *k <= fitting && wished.is_multiple_of(*k)).unwrap_or(1);
     let rows = panels.len().div_ceil(columns);
     let height = ((ui.available_height() - gap) / rows as f32 - gap).max(LEAST_HEIGHT);
     let panel_width = (width - gap * (columns - 1) as f32) / columns as f32;

@@ -76,11 +76,11 @@ pub fn restored_view(text: &str) -> View {
             "tab" => view.tab = Tab::ALL.into_iter().find(|tab| tab.title() == value).unwrap_or_default(),
             "theme" => {
                 view.theme =
-                    THEMES.iter().find(|(_, n)| *n == value).map(|(theme, _)| *theme).unwrap_or_default()
+                    THEMES.iter().find(|(_, n)| *n == value).map(|(theme, _)| *theme).unwrap_or_default();
             }
             "place" => {
                 view.place =
-                    PLACES.iter().find(|(_, n)| *n == value).map(|(place, _)| *place).unwrap_or_default()
+                    PLACES.iter().find(|(_, n)| *n == value).map(|(place, _)| *place).unwrap_or_default();
             }
             "figure" if !value.is_empty() => view.figure = Some(value.to_owned()),
             _ => {}
