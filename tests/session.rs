@@ -1,4 +1,6 @@
 //! The application without a screen, driven by commands as a person drives it.
+#![cfg(not(target_arch = "wasm32"))]
+#![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail by panicking")]
 
 use std::collections::BTreeSet;
 

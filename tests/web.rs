@@ -1,4 +1,5 @@
 //! The same numbers in a browser as natively: each of these tests runs in both.
+#![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail by panicking")]
 
 use descry::document::{Document, read_document};
 use descry::numerics::{Complex64, spectral_distance};
@@ -184,6 +185,17 @@ async fn pause(milliseconds: i32) {
     wasm_bindgen_futures::JsFuture::from(promise).await.unwrap();
 }
 
+#[cfg_attr(
+    not(target_arch = "wasm32"),
+    expect(
+        clippy::disallowed_methods,
+        reason = "natively web_time's clock is the one of the standard library"
+    )
+)]
+fn now() -> web_time::Instant {
+    web_time::Instant::now()
+}
+
 /// Median time of an analysis of the example in milliseconds.
 fn median_ms(uncertainty: f64) -> f64 {
     let mut document = document();
@@ -193,7 +205,7 @@ fn median_ms(uncertainty: f64) -> f64 {
     let request = JobRequest { document: descry::document::write_document_compact(&document), ..request() };
     let mut times: Vec<f64> = (0..20)
         .map(|_| {
-            let start = web_time::Instant::now();
+            let start = now();
             assert!(perform(&request, &mut |_, _| true).is_some(), "it comes to its end");
             start.elapsed().as_secs_f64() * 1e3
         })

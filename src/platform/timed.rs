@@ -15,19 +15,31 @@ pub(super) fn perform_timed(
     report: &mut dyn FnMut(JobReply) -> bool,
     go_on: &dyn Fn() -> bool,
 ) -> Option<(JobReply, f64)> {
-    let start = Instant::now();
+    let start = now();
     let mut reported = start;
     let reply = perform(request, &mut |fraction, what| {
         if !go_on() {
             return false;
         }
-        let now = Instant::now();
-        if now.duration_since(reported) < BETWEEN_REPORTS {
+        let at = now();
+        if at.duration_since(reported) < BETWEEN_REPORTS {
             return true;
         }
-        reported = now;
+        reported = at;
         let outcome = Outcome::Progress { fraction, what: what.to_owned() };
         report(JobReply { id: request.id, revision: request.revision, outcome })
     })?;
     Some((reply, start.elapsed().as_secs_f64() * 1e3))
+}
+
+/// The clock, which browsers have too.
+#[cfg_attr(
+    not(target_arch = "wasm32"),
+    expect(
+        clippy::disallowed_methods,
+        reason = "natively web_time's clock is the one of the standard library"
+    )
+)]
+fn now() -> Instant {
+    Instant::now()
 }
