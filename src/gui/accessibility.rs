@@ -27,9 +27,11 @@ pub struct Widget {
     pub focused: bool,
 }
 
+type OnChange = Box<dyn Fn(&[Widget]) + Send + Sync>;
+
 /// Passes the widgets of a frame on whenever they are others than in the frame before.
 pub struct Mirror {
-    on_change: Box<dyn Fn(&[Widget]) + Send + Sync>,
+    on_change: OnChange,
     shown: u64,
 }
 
@@ -80,7 +82,7 @@ fn role(role: Role) -> Option<&'static str> {
         Role::CheckBox => "checkbox",
         Role::RadioButton => "radio",
         Role::Switch => "switch",
-        Role::Label => "note",
+        Role::Label | Role::Note => "note",
         Role::Heading => "heading",
         Role::Paragraph => "paragraph",
         Role::Slider => "slider",
@@ -96,7 +98,6 @@ fn role(role: Role) -> Option<&'static str> {
         Role::Image | Role::Figure | Role::Canvas | Role::GraphicsObject | Role::GraphicsSymbol => "img",
         Role::Status => "status",
         Role::Alert => "alert",
-        Role::Note => "note",
         Role::Cell | Role::GridCell => "gridcell",
         _ => return None,
     })

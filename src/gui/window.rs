@@ -40,7 +40,7 @@ impl Window {
     pub fn new(
         creation: &CreationContext<'_>,
     ) -> Result<Self, Box<dyn std::error::Error + Send + Sync + 'static>> {
-        let stored = |key: &str| creation.storage.and_then(|storage| storage.get_string(key));
+        let stored = |key: &str| creation.storage?.get_string(key);
         let link = linked();
         let mut session = Session::begin(link.as_deref(), stored(DOCUMENT).as_deref())?;
         if let Some(text) = stored(VIEW) {
@@ -69,7 +69,7 @@ impl Window {
         let dropped = ctx.input(|input| input.raw.dropped_files.clone());
         match dropped.as_slice() {
             [] => {}
-            [file] => self.files.read_dropped(file.clone()),
+            [file] => self.files.read_dropped(std::sync::Arc::clone(file)),
             several => self.app.tell(
                 format!("{} files were dropped; one document can be opened at a time", several.len()),
                 true,
@@ -109,7 +109,7 @@ impl Window {
                         self.app.tell("copied the address: it holds the whole document", false);
                     }
                     None => {
-                        self.app.tell("the address could not be changed: copy the document instead", true)
+                        self.app.tell("the address could not be changed: copy the document instead", true);
                     }
                 }
             }
