@@ -27,6 +27,7 @@ pub struct Widget {
     pub focused: bool,
 }
 
+/// What is called with the widgets of a frame.
 type OnChange = Box<dyn Fn(&[Widget]) + Send + Sync>;
 
 /// Passes the widgets of a frame on whenever they are others than in the frame before.

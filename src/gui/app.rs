@@ -84,7 +84,7 @@ impl App {
         egui::Panel::top("top").show(ui, |ui| top_bar::show(ui, &self.session, &mut self.widgets, &mut out));
         egui::Panel::bottom("status")
             .show(ui, |ui| status_bar::show(ui, &self.session, &self.derived, &mut out));
-        if ui.available_width() < theme::NARROW {
+        if theme::is_narrow(ui) {
             self.narrow(ui, &mut out);
         } else {
             self.wide(ui, &mut out);

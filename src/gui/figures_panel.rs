@@ -5,17 +5,22 @@ use egui::{RichText, ScrollArea, Ui, vec2};
 use super::plot::{Place, figure_ui, notes_ui, panel_ui, panels_ui, short};
 use super::pole_plane::{Poles, pole_plane_ui};
 use super::{Output, Widgets, scenario, theme};
+use crate::document::{figure_to_csv, figure_to_svg};
 use crate::numerics::Complex64;
 use crate::observer::show as show_pole;
-use crate::paper::{FigureRecipe, Panel};
+use crate::paper::{FigureRecipe, FigureSpec, Panel};
+use crate::platform::files::{FileRequest, SavedFile, file_name};
 use crate::session::{Analysis, Derived, Session, Show, Simulation, Tab};
 
-/// Height of the upper row of the overview: unknown input and poles.
+/// Height of the overview's upper row.
 const OVERVIEW_TOP: f32 = 240.0;
 
 /// Draws the place of the figures.
 pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Widgets, out: &mut Output) {
     tabs(ui, session.view().tab, out);
+    if let Some(figure) = shown_figure(session, derived) {
+        exports(ui, session, figure, out);
+    }
     scenario::show(ui, session, widgets, out);
     ui.separator();
     let tab = session.view().tab;
@@ -57,6 +62,43 @@ fn tabs(ui: &mut Ui, current: Tab, out: &mut Output) {
                 out.show(Show::Tab(tab));
             }
         }
+    });
+}
+
+/// The figure that is on screen, as far as it is one.
+fn shown_figure<'a>(session: &Session, derived: &'a Derived) -> Option<&'a FigureSpec> {
+    let analysis = derived.analysis();
+    let simulation = analysis.and_then(|analysis| analysis.simulation.as_ref().ok());
+    match session.view().tab {
+        Tab::Overview | Tab::Poles => None,
+        Tab::States => simulation.map(|simulation| &simulation.states),
+        Tab::Errors => simulation.map(|simulation| &simulation.errors),
+        Tab::UnknownInput => simulation.map(|simulation| &simulation.unknown_input),
+        Tab::Bode => analysis?.bode.as_ref(),
+        Tab::Figures => {
+            let id = session.view().figure.as_deref()?;
+            derived.figure(id)?.as_ref().ok()
+        }
+    }
+}
+
+/// Buttons that save the figure on screen.
+fn exports(ui: &mut Ui, session: &Session, figure: &FigureSpec, out: &mut Output) {
+    ui.horizontal(|ui| {
+        ui.colored_label(theme::faint(ui), "Save this figure as");
+        let mut button =
+            |name: &str, extension: &str, mime: &'static str, write: fn(&FigureSpec) -> String| {
+                if ui.small_button(name).clicked() {
+                    let title = format!("{} {}", session.document().title, figure.id);
+                    out.files.push(FileRequest::Save(SavedFile {
+                        name: file_name(&title, extension),
+                        mime,
+                        bytes: write(figure).into_bytes(),
+                    }));
+                }
+            };
+        button("SVG", "svg", "image/svg+xml", figure_to_svg);
+        button("CSV", "csv", "text/csv", figure_to_csv);
     });
 }
 
@@ -108,14 +150,16 @@ fn rms_line(ui: &mut Ui, simulation: &Simulation) {
     });
 }
 
-/// Unknown input and poles above, states below.
+/// Unknown input above, on a narrow screen the poles, states below.
 fn overview(ui: &mut Ui, (session, derived): (&Session, &Derived), analysis: &Analysis, out: &mut Output) {
     let Ok(simulation) = &analysis.simulation else {
         if let Err(why) = &analysis.simulation {
             no_simulation(ui, why);
         }
-        ui.add_space(theme::BLOCK_GAP);
-        pole_plane_ui(ui, session, derived, vec2(ui.available_width(), OVERVIEW_TOP), out);
+        if theme::is_narrow(ui) {
+            ui.add_space(theme::BLOCK_GAP);
+            pole_plane_ui(ui, session, derived, vec2(ui.available_width(), OVERVIEW_TOP), out);
+        }
         return;
     };
     rms_line(ui, simulation);
@@ -124,25 +168,12 @@ fn overview(ui: &mut Ui, (session, derived): (&Session, &Derived), analysis: &An
         let unknown = simulation.unknown_input.panels.iter().find(|panel| is_unknown_input(panel));
         let width = ui.available_width();
         let height = OVERVIEW_TOP.min(0.45 * ui.available_height()).max(170.0);
-        let beside = width > 500.0 && unknown.is_some();
-        let half = if beside { (width - theme::ITEM_GAP) / 2.0 } else { width };
-        let draw_unknown = |ui: &mut Ui| {
-            if let Some(panel) = unknown {
-                panel_ui(
-                    ui,
-                    panel,
-                    &Place { id_salt: "overview", at: 1000, size: vec2(half, height), x_label: false },
-                );
-            }
-        };
-        if beside {
-            ui.horizontal_top(|ui| {
-                ui.spacing_mut().item_spacing.x = theme::ITEM_GAP;
-                draw_unknown(ui);
-                pole_plane_ui(ui, session, derived, vec2(half, height), out);
-            });
-        } else {
-            draw_unknown(ui);
+        if let Some(panel) = unknown {
+            let place = Place { id_salt: "overview", at: 1000, size: vec2(width, height), x_label: false };
+            panel_ui(ui, panel, &place);
+        }
+        // on a wide screen the plane stands in the observer's place
+        if theme::is_narrow(ui) {
             pole_plane_ui(ui, session, derived, vec2(width, height), out);
         }
         let states: Vec<&Panel> = simulation.states.panels.iter().collect();

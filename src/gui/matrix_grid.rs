@@ -21,7 +21,7 @@ pub(super) fn show_pair(
     widgets: &mut Widgets,
     out: &mut Output,
 ) {
-    let shown = |matrix: &Matrix| *matrix != Matrix::F || data.matrix(*matrix).values().len() > 0;
+    let shown = |matrix: &Matrix| *matrix != Matrix::F || !data.matrix(*matrix).values().is_empty();
     let matrices: Vec<Matrix> = pair.into_iter().filter(shown).collect();
     let least = |matrix: &Matrix| {
         let columns = data.matrix(*matrix).shape().1.max(3) as f32;
@@ -58,11 +58,8 @@ fn show(
     let (rows, columns) = data.matrix(matrix).shape();
     ui.horizontal(|ui| {
         ui.label(RichText::new(matrix.letter()).strong().size(16.0));
-        ui.label(
-            RichText::new(format!("{}, {rows} x {columns}", matrix.meaning()))
-                .small()
-                .color(theme::faint(ui)),
-        );
+        let about = RichText::new(format!("{rows} x {columns}")).small().color(theme::faint(ui));
+        ui.label(about).on_hover_text(matrix.meaning());
         menu(ui, data, matrix, out);
     });
     if rows == 0 || columns == 0 {

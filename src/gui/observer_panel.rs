@@ -5,7 +5,7 @@ use egui::{RichText, Ui, vec2};
 use super::text_field::text_field;
 use super::{Output, Widgets, conditions, pole_plane, result, theme};
 use crate::observer::{Method, Order};
-use crate::session::{Derived, Edit, Field, Light, Session, poles_text};
+use crate::session::{Derived, Edit, Field, Light, Session, Tab, poles_text};
 
 /// Draws the place of the observer.
 pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Widgets, out: &mut Output) {
@@ -113,8 +113,12 @@ fn poles(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Widget
         ui.colored_label(theme::bad(ui), &draft.error);
     }
     scale(ui, session, out);
-    let size = vec2(ui.available_width(), 190.0);
-    ui.allocate_ui(size, |ui| pole_plane::pole_plane_ui(ui, session, derived, size, out));
+    // the view of poles has the plane itself, larger
+    let elsewhere = !theme::is_narrow(ui) && session.view().tab == Tab::Poles;
+    if !elsewhere {
+        let size = vec2(ui.available_width(), 190.0);
+        ui.allocate_ui(size, |ui| pole_plane::pole_plane_ui(ui, session, derived, size, out));
+    }
 }
 
 /// The bandwidth slider, the papers' multiple of Lambda.

@@ -8,7 +8,7 @@ use super::theme;
 use crate::paper::{FigureSpec, Panel, Series};
 
 /// Panels are not drawn narrower or lower than this.
-const LEAST_WIDTH: f32 = 260.0;
+const LEAST_WIDTH: f32 = 185.0;
 const LEAST_HEIGHT: f32 = 150.0;
 /// Height of the line with title and legend above a panel, where it does not wrap.
 const TITLE_HEIGHT: f32 = 22.0;
@@ -46,7 +46,9 @@ pub fn panels_ui(ui: &mut Ui, panels: &[&Panel], columns: usize, id_salt: &str) 
     let width = ui.available_width();
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
     let fitting = ((width + gap) / (LEAST_WIDTH + gap)).floor().max(1.0) as usize;
-    let columns = columns.clamp(1, fitting).min(panels.len());
+    let wished = columns.clamp(1, panels.len().max(1));
+    // where not all fit, an even share keeps related panels below each other
+    let columns = (1..=wished).rev().find(|k| *k <= fitting && wished.is_multiple_of(*k)).unwrap_or(1);
     let rows = panels.len().div_ceil(columns);
     let height = ((ui.available_height() - gap) / rows as f32 - gap).max(LEAST_HEIGHT);
     let panel_width = (width - gap * (columns - 1) as f32) / columns as f32;

@@ -33,8 +33,10 @@ pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Wid
 
 fn heading(ui: &mut Ui, document: &Document, out: &mut Output) {
     let mut title = document.title.clone();
-    let field = egui::TextEdit::singleline(&mut title)
+    let field = egui::TextEdit::multiline(&mut title)
         .hint_text("Title")
+        .desired_rows(1)
+        .return_key(None)
         .font(egui::TextStyle::Heading)
         .desired_width(f32::INFINITY)
         .frame(egui::Frame::NONE);

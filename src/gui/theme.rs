@@ -37,6 +37,11 @@ const DARK_SERIES: [Color32; 8] = [
     Color32::from_rgb(240, 228, 100),
 ];
 
+/// Whether the screen shows one place at a time.
+pub fn is_narrow(ui: &Ui) -> bool {
+    ui.ctx().content_rect().width() < NARROW
+}
+
 /// Colour of a curve by its number.
 pub fn series(ui: &Ui, index: usize) -> Color32 {
     let palette = if ui.visuals().dark_mode { &DARK_SERIES } else { &LIGHT_SERIES };

@@ -74,17 +74,19 @@ pub fn restored_view(text: &str) -> View {
     for (key, value) in text.lines().filter_map(|line| line.split_once(' ')) {
         match key {
             "tab" => view.tab = Tab::ALL.into_iter().find(|tab| tab.title() == value).unwrap_or_default(),
-            "theme" => view.theme = named(&THEMES, value),
-            "place" => view.place = named(&PLACES, value),
+            "theme" => {
+                view.theme =
+                    THEMES.iter().find(|(_, n)| *n == value).map(|(theme, _)| *theme).unwrap_or_default();
+            }
+            "place" => {
+                view.place =
+                    PLACES.iter().find(|(_, n)| *n == value).map(|(place, _)| *place).unwrap_or_default();
+            }
             "figure" if !value.is_empty() => view.figure = Some(value.to_owned()),
             _ => {}
         }
     }
     view
-}
-
-fn named<T: Copy + Default>(list: &[(T, &str)], name: &str) -> T {
-    list.iter().find(|(_, other)| *other == name).map(|(value, _)| *value).unwrap_or_default()
 }
 
 #[cfg(test)]
