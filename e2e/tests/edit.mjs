@@ -69,6 +69,7 @@ export default async ({ step, open, browser }) => {
     await page.page.mouse.down();
     for (let k = 1; k <= 12; k += 1) await page.page.mouse.move(x - 4 * k, y);
     await page.page.mouse.up();
+    await page.page.waitForTimeout(500);
     const after = await page.until((state) => settled(state) && state.revision > before.revision, 'a dragged pole');
     assert.ok(after.poles[0][0] < before.poles[0][0], `${before.poles[0]} went left to ${after.poles[0]}`);
     assert.equal(after.verified, true, JSON.stringify(after.errors));

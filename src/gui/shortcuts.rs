@@ -11,7 +11,7 @@ const REDO_AGAIN: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, K
 
 /// Turns pressed shortcuts into commands. While a text is being typed, undo belongs to that text.
 pub(super) fn take(ctx: &Context, out: &mut Output) {
-    if ctx.egui_wants_keyboard_input() {
+    if ctx.text_edit_focused() {
         return;
     }
     ctx.input_mut(|input| {
