@@ -1,6 +1,7 @@
 //! The places of system and observer, used as a person uses them, without a window.
 
 #![cfg(all(not(target_arch = "wasm32"), feature = "gui"))]
+#![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests may fail a test")]
 
 use descry::document::Matrix;
 use descry::gui::App;
