@@ -27,7 +27,6 @@ pub struct Widget {
     pub focused: bool,
 }
 
-/// What is called with the widgets of a frame.
 type OnChange = Box<dyn Fn(&[Widget]) + Send + Sync>;
 
 /// Passes the widgets of a frame on whenever they are others than in the frame before.
@@ -185,11 +184,12 @@ mod tests {
         ctx.add_plugin(Mirror::new(move |widgets| sink.lock().unwrap().push(widgets.to_vec())));
         let frame = |value: f64, ctx: &egui::Context| {
             let mut value = value;
-            drop(ctx.run_ui(egui::RawInput::default(), |ui| {
+            let mut output = ctx.run_ui(egui::RawInput::default(), |ui| {
                 ui.label("a note");
                 drop(ui.button("Press"));
                 ui.add(egui::Slider::new(&mut value, 0.0..=9.0).text("Factor"));
-            }));
+            });
+            output.textures_delta.clear();
         };
         for _ in 0..3 {
             frame(1.0, &ctx);

@@ -12,6 +12,7 @@ use crate::session::Task;
 /// What a test of the page can know without looking at pixels.
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
+#[expect(clippy::struct_excessive_bools, reason = "a report of independent facts, not a state machine")]
 pub(super) struct Report {
     title: String,
     revision: u64,

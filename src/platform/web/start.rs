@@ -26,7 +26,7 @@ thread_local! {
 /// The program's state as JSON, for tests of the page; nothing before the program runs.
 #[wasm_bindgen]
 pub fn debug_state() -> Option<String> {
-    STATE.with_borrow(|state| state.as_ref().and_then(|state| state()))
+    STATE.with_borrow(|state| state.as_ref()?())
 }
 
 /// Hands widgets, as JSON, to the page's mirror for screen readers.

@@ -30,7 +30,7 @@ pub(in crate::platform) struct WorkerRunner {
 
 /// A worker and what it said.
 struct Worker {
-    worker: web_sys::Worker,
+    handle: web_sys::Worker,
     heard: Rc<Heard>,
     _on_message: Closure<dyn FnMut(web_sys::MessageEvent)>,
     _on_error: Closure<dyn FnMut(web_sys::ErrorEvent)>,
@@ -173,12 +173,12 @@ impl Worker {
         worker.set_onerror(Some(on_error.as_ref().unchecked_ref()));
         // the program as it is already compiled: no second download, no second compilation
         worker.post_message(&wasm_bindgen::module())?;
-        Ok(Self { worker, heard, _on_message: on_message, _on_error: on_error })
+        Ok(Self { handle: worker, heard, _on_message: on_message, _on_error: on_error })
     }
 
     fn send(&self, bytes: Vec<u8>) {
         if self.heard.ready.get() {
-            post(&self.worker, &bytes);
+            post(&self.handle, &bytes);
         } else {
             *self.heard.waiting.borrow_mut() = Some(bytes);
         }
@@ -187,9 +187,9 @@ impl Worker {
 
 impl Drop for Worker {
     fn drop(&mut self) {
-        self.worker.set_onmessage(None);
-        self.worker.set_onerror(None);
-        self.worker.terminate();
+        self.handle.set_onmessage(None);
+        self.handle.set_onerror(None);
+        self.handle.terminate();
     }
 }
 
