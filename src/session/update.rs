@@ -126,20 +126,7 @@ fn drag_key(edit: &Edit) -> Option<(String, bool)> {
         Edit::Title(_) => Some(("title".to_owned(), false)),
         Edit::Notes(_) => Some(("notes".to_owned(), false)),
         Edit::Horizon(_) => Some(("horizon".to_owned(), false)),
-        Edit::Time(_)
-        | Edit::Cell { .. }
-        | Edit::Paste { .. }
-        | Edit::Fill { .. }
-        | Edit::Size { .. }
-        | Edit::AddSensor { .. }
-        | Edit::Method(_)
-        | Edit::Order(_)
-        | Edit::Poles(_)
-        | Edit::Initial { .. }
-        | Edit::Signal { .. }
-        | Edit::Samples(_)
-        | Edit::UncertaintyCell { .. }
-        | Edit::RankTolerance(_) => None,
+        _ => None,
     }
 }
 
@@ -153,21 +140,7 @@ fn typed_field(edit: &Edit) -> Option<Field> {
         Edit::UncertaintyCell { row, column, frequency, .. } => {
             Some(Field::Uncertainty(*row, *column, *frequency))
         }
-        Edit::Title(_)
-        | Edit::Notes(_)
-        | Edit::Time(_)
-        | Edit::Paste { .. }
-        | Edit::Fill { .. }
-        | Edit::Size { .. }
-        | Edit::AddSensor { .. }
-        | Edit::Method(_)
-        | Edit::Order(_)
-        | Edit::Scale { .. }
-        | Edit::Horizon(_)
-        | Edit::Samples(_)
-        | Edit::UncertaintyScale { .. }
-        | Edit::NoiseLevel { .. }
-        | Edit::RankTolerance(_) => None,
+        _ => None,
     }
 }
 
