@@ -126,7 +126,12 @@ fn time_panel(
         if role == Role::Estimate && series.iter().any(|other| other.role == Role::Estimate) {
             role = Role::Other;
         }
-        series.push(Series { name, role, colour: recipe.index + 4 * recipe.run, points });
+        series.push(Series {
+            name,
+            role,
+            colour: colour_of(recipe.quantity, recipe.index) + recipe.run,
+            points,
+        });
     }
     let label = time_label(problem.system.time);
     Panel {
@@ -158,6 +163,14 @@ pub(super) fn role_of(quantity: Quantity) -> Role {
         Quantity::State | Quantity::UnknownInput | Quantity::Input | Quantity::Output => Role::Truth,
         Quantity::Estimate | Quantity::UnknownInputEstimate => Role::Estimate,
         Quantity::Error | Quantity::UnknownInputError => Role::Error,
+    }
+}
+
+/// The same colour for a state, its estimate and its error; unknown inputs have their own.
+pub(super) fn colour_of(quantity: Quantity, index: usize) -> usize {
+    match quantity {
+        Quantity::State | Quantity::Estimate | Quantity::Error | Quantity::Output | Quantity::Input => index,
+        Quantity::UnknownInput | Quantity::UnknownInputEstimate | Quantity::UnknownInputError => 7 + index,
     }
 }
 

@@ -1,6 +1,6 @@
 //! The standard views of any design: states, errors, unknown input, Bode.
 
-use super::compute::{bode_curve, frequency, role_of, samples, time_label, transfer_at};
+use super::compute::{bode_curve, colour_of, frequency, role_of, samples, time_label, transfer_at};
 use super::figure::{Axis, FigureSpec, Panel, Role, Series};
 use super::recipe::{Quantity, Transfer};
 use crate::observer::{Design, LinearObserver};
@@ -124,7 +124,7 @@ fn panel(trajectory: &Trajectory, time: TimeDomain, title: &str, show: &[(Quanti
         (!points.is_empty()).then(|| Series {
             name: quantity.name(index),
             role: role_of(quantity),
-            colour: colour(quantity, index),
+            colour: colour_of(quantity, index),
             points,
         })
     });
@@ -133,13 +133,5 @@ fn panel(trajectory: &Trajectory, time: TimeDomain, title: &str, show: &[(Quanti
         x: Axis { label: time_label(time), ..Axis::default() },
         y: Axis::default(),
         series: series.collect(),
-    }
-}
-
-/// The same colour for a state, its estimate and its error; unknown inputs have their own.
-fn colour(quantity: Quantity, index: usize) -> usize {
-    match quantity {
-        Quantity::State | Quantity::Estimate | Quantity::Error | Quantity::Output | Quantity::Input => index,
-        Quantity::UnknownInput | Quantity::UnknownInputEstimate | Quantity::UnknownInputError => 7 + index,
     }
 }
