@@ -205,7 +205,7 @@ pub(super) fn frequency(time: TimeDomain, omega: f64) -> Complex64 {
 }
 
 /// A transfer function at one point; `None` where it does not exist.
-pub(super) fn transfer_at(
+fn transfer_at(
     system: &DescriptorSystem,
     observer: &LinearObserver,
     transfer: Transfer,
@@ -250,8 +250,10 @@ fn bode_panels(
     runs: &[Run],
     response: impl Fn(&Run, f64) -> Option<Complex64>,
 ) -> [Panel; 2] {
+    let frequencies = bode_frequencies(range);
+    let curve = |run: &Run| bode_curve(&frequencies, frequencies.iter().map(|omega| response(run, *omega)));
     let curves: Vec<(String, [Vec<[f64; 2]>; 2])> =
-        runs.iter().map(|run| (run.name.clone(), bode_curve(range, |omega| response(run, omega)))).collect();
+        runs.iter().map(|run| (run.name.clone(), curve(run))).collect();
     let panel = |which: usize, title: &str, label: &str| Panel {
         title: title.to_owned(),
         x: Axis { label: "frequency (rad/s)".to_owned(), logarithmic: true, range: Some(range) },
@@ -270,16 +272,21 @@ fn bode_panels(
     [panel(0, title, "magnitude (dB)"), panel(1, "", "phase (degrees)")]
 }
 
-/// Magnitude and unwrapped phase of a response on a logarithmic grid.
-pub(super) fn bode_curve(range: [f64; 2], response: impl Fn(f64) -> Option<Complex64>) -> [Vec<[f64; 2]>; 2] {
+/// Frequencies of a Bode curve, evenly spaced on a logarithmic axis.
+pub(super) fn bode_frequencies(range: [f64; 2]) -> Vec<f64> {
     let (low, high) = (range[0].ln(), range[1].ln());
+    (0..BODE_POINTS).map(|k| (low + (high - low) * k as f64 / (BODE_POINTS - 1) as f64).exp()).collect()
+}
+
+/// Magnitude in dB and unwrapped phase in degrees of a response; gaps where it does not exist.
+pub(super) fn bode_curve(
+    frequencies: &[f64],
+    response: impl Iterator<Item = Option<Complex64>>,
+) -> [Vec<[f64; 2]>; 2] {
     let mut magnitude = Vec::new();
     let mut phase: Vec<[f64; 2]> = Vec::new();
-    for k in 0..BODE_POINTS {
-        let omega = (low + (high - low) * k as f64 / (BODE_POINTS - 1) as f64).exp();
-        let Some(value) = response(omega).filter(|z| z.norm() > 0.0 && z.norm().is_finite()) else {
-            continue;
-        };
+    for (&omega, value) in frequencies.iter().zip(response) {
+        let Some(value) = value.filter(|z| z.norm() > 0.0 && z.norm().is_finite()) else { continue };
         magnitude.push([omega, 20.0 * value.norm().log10()]);
         let mut degrees = value.arg().to_degrees();
         if let Some([_, last]) = phase.last() {

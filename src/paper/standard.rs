@@ -1,9 +1,10 @@
 //! The standard views of any design: states, errors, unknown input, Bode.
 
-use super::compute::{bode_curve, colour_of, frequency, role_of, samples, time_label, transfer_at};
+use super::compute::{bode_curve, bode_frequencies, colour_of, frequency, role_of, samples, time_label};
 use super::figure::{Axis, FigureSpec, Panel, Role, Series};
-use super::recipe::{Quantity, Transfer};
-use crate::observer::{Design, LinearObserver};
+use super::recipe::Quantity;
+use crate::numerics::Complex64;
+use crate::observer::{Design, LinearObserver, Response, unknown_input_response};
 use crate::simulation::Trajectory;
 use crate::system::{DescriptorSystem, TimeDomain};
 
@@ -60,10 +61,14 @@ pub fn bode(system: &DescriptorSystem, design: &Design) -> Option<FigureSpec> {
         return None;
     }
     let range = bode_range(&design.observer, system.time);
-    let curve = |transfer, to: usize| {
-        bode_curve(range, |omega| {
-            transfer_at(system, &design.observer, transfer, (0, to), frequency(system.time, omega))
-        })
+    let frequencies = bode_frequencies(range);
+    // every curve comes from the same joint solve at each frequency
+    let responses: Vec<Option<Response>> = frequencies
+        .iter()
+        .map(|omega| unknown_input_response(frequency(system.time, *omega), system, &design.observer))
+        .collect();
+    let curve = |value: &dyn Fn(&Response) -> Complex64| {
+        bode_curve(&frequencies, responses.iter().map(|response| response.as_ref().map(value)))
     };
     let mut magnitudes = Vec::new();
     let mut phases = Vec::new();
@@ -74,10 +79,10 @@ pub fn bode(system: &DescriptorSystem, design: &Design) -> Option<FigureSpec> {
         }
     };
     if design.observer.n_estimated_inputs() > 0 {
-        add("d1 to d1_hat".to_owned(), Role::Response, 7, curve(Transfer::UnknownInput, 0));
+        add("d1 to d1_hat".to_owned(), Role::Response, 7, curve(&|r| r.d_hat[(0, 0)]));
     }
     for i in 0..system.n_states().min(MOST_CURVES) {
-        add(format!("d1 to e{}", i + 1), Role::Error, i, curve(Transfer::UnknownInputToError, i));
+        add(format!("d1 to e{}", i + 1), Role::Error, i, curve(&|r| r.x[(i, 0)] - r.x_hat[(i, 0)]));
     }
     if magnitudes.is_empty() {
         return None;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::job::Progress;
 use crate::document::{Document, PlantData};
 use crate::numerics::{Complex64, Tolerance};
-use crate::observer::{Assessment, Method, PoleDesign, Verdict, assess, conditions};
+use crate::observer::{Assessment, Condition, Method, PoleDesign, Verdict, assess, conditions};
 use crate::paper::{FigureSpec, standard};
 use crate::system::properties::{
     finite_eigenvalues, impulse_observability, index, r_detectability, r_observability, rank_e, rank_e_c,
@@ -100,8 +100,11 @@ pub fn analyse(document: &Document, progress: Progress<'_>) -> Option<Analysis> 
     if !progress(0.3, "conditions") {
         return None;
     }
-    let methods = Method::ALL.iter().map(|method| light(&system, document, *method)).collect();
     let assessment = assessment(document, &system);
+    // the conditions of the chosen method are known already
+    let known = assessment.as_ref().ok().map(|assessment| assessment.conditions.as_slice());
+    let known = |method: Method| known.filter(|_| method == document.design.method);
+    let methods = Method::ALL.iter().map(|m| light(&system, document, *m, known(*m))).collect();
     if !progress(0.6, "simulation") {
         return None;
     }
@@ -180,7 +183,12 @@ fn simulation(
     })
 }
 
-fn light(system: &DescriptorSystem, document: &Document, method: Method) -> MethodLight {
+fn light(
+    system: &DescriptorSystem,
+    document: &Document,
+    method: Method,
+    known: Option<&[Condition]>,
+) -> MethodLight {
     let light = |light, why: &str| MethodLight { method, light, why: why.to_owned() };
     if let Some(why) = unsuitable(document) {
         return light(Light::Missing, why);
@@ -188,19 +196,27 @@ fn light(system: &DescriptorSystem, document: &Document, method: Method) -> Meth
     if method == Method::ProportionalIntegral && system.n_unknown_inputs() == 0 {
         return light(Light::Missing, "needs an unknown input: D has no columns");
     }
-    let choice = PoleDesign { method, ..document.design.clone() };
-    match conditions(system, &choice, &document.tolerance) {
-        Err(error) => light(Light::Fails, &error.to_string()),
-        Ok(found) => {
-            let needed = || found.iter().filter(|condition| condition.needed);
-            if let Some(failed) = needed().find(|condition| !condition.verdict.holds()) {
-                return light(Light::Fails, &format!("condition {} fails: {}", failed.label, failed.summary));
-            }
-            match needed().find(|condition| condition.verdict == Verdict::Fragile) {
-                Some(near) => light(Light::Near, &format!("condition {} holds narrowly", near.label)),
-                None => light(Light::Exists, "all conditions hold"),
+    let asked;
+    let found = match known {
+        Some(known) => known,
+        None => {
+            let choice = PoleDesign { method, ..document.design.clone() };
+            match conditions(system, &choice, &document.tolerance) {
+                Ok(found) => {
+                    asked = found;
+                    asked.as_slice()
+                }
+                Err(error) => return light(Light::Fails, &error.to_string()),
             }
         }
+    };
+    let needed = || found.iter().filter(|condition| condition.needed);
+    if let Some(failed) = needed().find(|condition| !condition.verdict.holds()) {
+        return light(Light::Fails, &format!("condition {} fails: {}", failed.label, failed.summary));
+    }
+    match needed().find(|condition| condition.verdict == Verdict::Fragile) {
+        Some(near) => light(Light::Near, &format!("condition {} holds narrowly", near.label)),
+        None => light(Light::Exists, "all conditions hold"),
     }
 }
 
