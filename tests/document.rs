@@ -534,3 +534,10 @@ mod random {
         }
     }
 }
+
+#[test]
+fn a_key_that_stands_twice_is_refused() {
+    let text = r#"{"descry": 1, "system": {"E": [[1]], "E": [[2]], "A": [[1]]}}"#;
+    let error = read_document(text).unwrap_err().to_string();
+    assert!(error.contains("a second key \"E\""), "{error}");
+}

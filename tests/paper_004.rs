@@ -1,5 +1,6 @@
 //! Paper 004 (Koenig and Mammar): conditions, designs and figures against the reference numbers.
 #![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail by panicking")]
+#![expect(non_snake_case, reason = "matrix letters of the paper")]
 
 use descry::document::{Document, read_document, write_document};
 use descry::numerics::{Complex64, RankDecision, Tolerance, eigenvalues, spectral_distance};
@@ -566,4 +567,50 @@ fn every_order_is_verified_in_discrete_time() {
     let unstable = DescriptorSystem { A: &system.A * 1.5, ..system };
     let found = assess(&unstable, &document.design, &document.tolerance).unwrap();
     assert!(found.verified(), "unstable: {:#?}", found.outcome);
+}
+
+/// Rows of E mixed by an invertible matrix: no zero row is left, the system is the same.
+#[test]
+fn mixed_rows_change_no_verdict() {
+    let mix = nalgebra::dmatrix![
+        1.0, 0.3, -0.7, 0.2;
+        -0.4, 1.1, 0.6, 0.9;
+        0.8, -0.5, 1.3, -0.2;
+        0.1, 0.7, -0.6, 0.9;
+    ];
+    let DescriptorSystem { E, A, B, C, D, F, time } = system();
+    let mixed = DescriptorSystem { E: &mix * E, A: &mix * A, B: &mix * B, C, D: &mix * D, F, time };
+    for method in Method::ALL {
+        for order in Order::ALL {
+            let found = assess(&mixed, &choice(method, order), &Tolerance::default()).unwrap();
+            assert!(found.verified(), "{method:?} {order:?}: {:#?}", found.outcome);
+        }
+    }
+}
+
+/// A circuit in farad and ohm: where rounding decides, the report says what to do.
+#[test]
+fn entries_of_many_decades_are_met_with_advice() {
+    let (c, r) = (1e-9, 1e4);
+    let E = DMatrix::from_diagonal(&nalgebra::dvector![c, c, 0.0]);
+    let A = nalgebra::dmatrix![0.0, 0.0, -1.0; 0.0, -1.0 / r, 1.0; 1.0, -1.0, -r];
+    let mut circuit = DescriptorSystem::autonomous(E, A, nalgebra::dmatrix![0.0, 1.0, 0.0]).unwrap();
+    circuit.D = nalgebra::dmatrix![1.0; 0.0; 0.0];
+    circuit.F = DMatrix::zeros(1, 1);
+    let found = descry::observer::conditions(
+        &circuit,
+        &choice(Method::ProportionalIntegral, Order::Full),
+        &Tolerance::default(),
+    )
+    .unwrap();
+    let doubtful: Vec<_> = found.iter().filter(|c| c.verdict != Verdict::Holds).collect();
+    assert!(!doubtful.is_empty(), "nano and kilo in one matrix are not decided without a word");
+    for condition in doubtful {
+        assert!(
+            condition.remedies.iter().any(|r| r.contains("units")),
+            "{}: {:?}",
+            condition.label,
+            condition.remedies
+        );
+    }
 }

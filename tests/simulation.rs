@@ -655,3 +655,28 @@ fn any_system_gives_a_trajectory_or_a_reason() {
     assert!(whole > 20 && cut > 5 && refused > 5, "{whole} whole, {cut} cut off, {refused} refused");
     assert!(failed <= 5, "the stiff solver failed {failed} times");
 }
+
+#[test]
+fn a_signal_that_jumps_too_often_is_refused_and_named() {
+    let signal = descry::system::Signal::parse("square(1e5*t)").unwrap();
+    let system = descry::system::DescriptorSystem {
+        B: nalgebra::dmatrix![1.0],
+        ..descry::system::DescriptorSystem::autonomous(
+            nalgebra::dmatrix![1.0],
+            nalgebra::dmatrix![-1.0],
+            nalgebra::dmatrix![1.0],
+        )
+        .unwrap()
+    };
+    let scenario = descry::simulation::Scenario {
+        horizon: 6.0,
+        samples: 61,
+        x0: nalgebra::dvector![0.0],
+        u: vec![signal],
+        d: Vec::new(),
+        noise: Vec::new(),
+        uncertainty: None,
+    };
+    let error = scenario.run(&system, &[], &descry::numerics::Tolerance::default()).unwrap_err().to_string();
+    assert!(error.contains("square(1e5*t)") && error.contains("10000"), "{error}");
+}

@@ -3,6 +3,7 @@
 use serde_json::{Map, Value};
 
 use super::DocumentError;
+use super::duplicates::Unambiguous;
 use super::limits::{MAX_BYTES, MAX_TEXT};
 
 /// A value and the path that leads to it.
@@ -25,11 +26,22 @@ pub(super) fn parse(text: &str) -> Result<Value, DocumentError> {
     if text.len() > MAX_BYTES {
         return Err(DocumentError::TooLarge { found: text.len(), limit: MAX_BYTES });
     }
-    serde_json::from_str(text).map_err(|error| DocumentError::NotJson {
-        message: error.to_string().split(" at line").next().unwrap_or_default().to_owned(),
+    let message =
+        |error: &serde_json::Error| error.to_string().split(" at line").next().unwrap_or_default().to_owned();
+    let value = serde_json::from_str(text).map_err(|error| DocumentError::NotJson {
+        message: message(&error),
         line: error.line(),
         column: error.column(),
-    })
+    })?;
+    serde_json::from_str::<Unambiguous>(text).map_err(|error| {
+        let place = format!("line {}, column {}", error.line(), error.column());
+        DocumentError::at(
+            &place,
+            message(&error),
+            "a key may stand only once in an object; remove one of them",
+        )
+    })?;
+    Ok(value)
 }
 
 /// A short description of what stands somewhere.

@@ -1,6 +1,7 @@
 //! L3: the versioned file format, links, pasted matrices, exports.
 
 mod cursor;
+mod duplicates;
 mod entry;
 mod error;
 mod export_csv;

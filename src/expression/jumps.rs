@@ -5,7 +5,7 @@ use super::program::{Instruction, Program};
 use super::rules::{binary_branch, ternary_branch, unary_branch};
 
 /// Most instants that are returned.
-const MOST: usize = 10_000;
+pub const MAX_JUMPS: usize = 10_000;
 /// Cells of the grid.
 const CELLS: u32 = 20_000;
 
@@ -32,7 +32,7 @@ pub(super) fn jumps(program: &Program, time: usize, variables: usize, interval: 
     instants.sort_by(f64::total_cmp);
     // A `sign` changes twice where it passes zero, and several terms may jump together.
     instants.dedup_by(|later, earlier| *later - *earlier <= 8.0 * f64::EPSILON * later.abs());
-    instants.truncate(MOST);
+    instants.truncate(MAX_JUMPS);
     instants
 }
 
@@ -117,7 +117,7 @@ impl<F: FnMut(f64) -> f64> Search<F> {
 
     /// Bisects until the ends are neighbouring numbers; at most about 60 levels for each change.
     fn within(&mut self, left: (f64, f64), right: (f64, f64)) {
-        if left.1 == right.1 || self.found.len() >= MOST {
+        if left.1 == right.1 || self.found.len() >= MAX_JUMPS {
             return;
         }
         let t = left.0 + (right.0 - left.0) / 2.0;

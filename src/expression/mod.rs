@@ -27,6 +27,7 @@ mod wave;
 use std::sync::Arc;
 
 pub use error::{ExpressionError, ExpressionProblem};
+pub use jumps::MAX_JUMPS;
 use program::Program;
 
 /// Longest text that is read, in characters.

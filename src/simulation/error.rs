@@ -73,6 +73,17 @@ pub enum SimulationError {
         /// Time of the evaluation.
         time: f64,
     },
+    /// A signal that jumps more often than can be followed.
+    #[error(
+        "the signal `{signal}` jumps at least {limit} times within the horizon, more than can be followed exactly; \
+         choose a slower signal or a shorter horizon"
+    )]
+    TooManyJumps {
+        /// The signal, as typed.
+        signal: String,
+        /// How many jumps are followed.
+        limit: usize,
+    },
     /// A horizon that is no positive number.
     #[error("the horizon is {found}, but a positive number of seconds (of steps in discrete time) is needed")]
     Horizon {

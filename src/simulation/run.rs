@@ -13,7 +13,7 @@ pub const LARGEST_STATE: f64 = 1e12;
 /// Most samples of a trajectory.
 pub const MOST_SAMPLES: usize = 100_000;
 /// Most states of plant and observers together.
-pub const MOST_STATES: usize = 200;
+pub const MOST_STATES: usize = 400;
 
 /// The instants of a trajectory: an even grid over `0..=horizon`.
 ///

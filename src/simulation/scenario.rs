@@ -3,6 +3,7 @@
 use nalgebra::DVector;
 
 use super::{Inputs, Plant, SimulationError, Span, Trajectory, Uncertainty, simulate};
+use crate::expression::MAX_JUMPS;
 use crate::numerics::Tolerance;
 use crate::observer::LinearObserver;
 use crate::system::{DescriptorSystem, Signal, TimeDomain};
@@ -44,7 +45,7 @@ impl Scenario {
         let starts: Vec<Vec<f64>> = observers.iter().map(|observer| vec![0.0; observer.order()]).collect();
         let observers: Vec<(&LinearObserver, &[f64])> =
             observers.iter().zip(&starts).map(|(observer, z0)| (*observer, z0.as_slice())).collect();
-        let jumps = if system.time == TimeDomain::Discrete { Vec::new() } else { self.jumps() };
+        let jumps = if system.time == TimeDomain::Discrete { Vec::new() } else { self.jumps()? };
         let inputs = Inputs {
             known: &|t: f64, out: &mut [f64]| values(&self.u, t, out),
             unknown: &|t: f64, out: &mut [f64]| values(&self.d, t, out),
@@ -57,12 +58,21 @@ impl Scenario {
     }
 
     /// All instants at which a signal jumps, sorted.
-    fn jumps(&self) -> Vec<f64> {
-        let signals = self.u.iter().chain(&self.d).chain(&self.noise);
-        let mut jumps: Vec<f64> = signals.flat_map(|signal| signal.jumps(0.0, self.horizon)).collect();
+    fn jumps(&self) -> Result<Vec<f64>, SimulationError> {
+        let mut jumps = Vec::new();
+        for signal in self.u.iter().chain(&self.d).chain(&self.noise) {
+            let found = signal.jumps(0.0, self.horizon);
+            if found.len() >= MAX_JUMPS {
+                return Err(SimulationError::TooManyJumps {
+                    signal: signal.text().to_owned(),
+                    limit: MAX_JUMPS,
+                });
+            }
+            jumps.extend(found);
+        }
         jumps.sort_by(f64::total_cmp);
         jumps.dedup();
-        jumps
+        Ok(jumps)
     }
 }
 

@@ -31,6 +31,7 @@ pub fn conditions(
     let exists = eight.verdict.holds();
     let mut result = vec![eight, ask.no_feedthrough(paper_form), ask.condition_9()?, ask.condition_10()?];
     if order == Order::General {
+        advise_units(system, &mut result);
         return Ok(result);
     }
     if !exists {
@@ -50,7 +51,30 @@ pub fn conditions(
         Order::Reduced => result.extend(ask.conditions_22_23(&equivalent)?),
         Order::General => {}
     }
+    advise_units(system, &mut result);
     Ok(result)
+}
+
+/// Decades that the entries of a system may span before units are worth a word.
+const USUAL_SPAN: f64 = 7.0;
+
+/// Where a condition does not clearly hold and the entries span many decades, proposes other units.
+fn advise_units(system: &DescriptorSystem, conditions: &mut [Condition]) {
+    let entries = system.matrices().into_iter().flat_map(|(_, matrix)| matrix.iter());
+    let sizes = entries.filter(|x| **x != 0.0).map(|x| x.abs().log10());
+    let (low, high) =
+        sizes.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+    let span = high - low;
+    if span < USUAL_SPAN {
+        return;
+    }
+    for condition in conditions.iter_mut().filter(|c| matches!(c.verdict, Verdict::Fragile | Verdict::Fails))
+    {
+        condition.remedies.push(format!(
+            "the entries span {span:.0} decades, which makes this decision unreliable: choose units in which they are \
+             closer to 1 (for example ms, kOhm and uF)"
+        ));
+    }
 }
 
 /// Existence conditions of an observer that estimates states alone: (9) and R-detectability.
@@ -81,6 +105,7 @@ pub fn ordinary_conditions(
             result.extend(ask.conditions_22_23(&equivalent)?);
         }
     }
+    advise_units(system, &mut result);
     Ok(result)
 }
 

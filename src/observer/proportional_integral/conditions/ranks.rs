@@ -48,11 +48,8 @@ impl Ask<'_> {
         if chosen.is_none() {
             result.remedies.push("choose the general form, which does not need (8)".to_owned());
         }
-        result.evidence = vec![
-            evidence("rank [E* N*]", of_ed, r),
-            evidence("rank E*", of_e, e),
-            evidence("rank [E*; C*]", of_ec, n),
-        ];
+        result.evidence =
+            vec![evidence("[E* N*]", of_ed, r), evidence("E*", of_e, e), evidence("[E*; C*]", of_ec, n)];
         result.needed = needed;
         Ok(result)
     }
@@ -79,10 +76,18 @@ impl Ask<'_> {
         let (n, r) = (self.system.n_states(), found.rank_e.rank);
         let mut result = condition("(9)", "impulse observability", "rank [E* A*; 0 E*; 0 C*] = n + rank E*");
         result.verdict = Verdict::of(found.holds(), found.fragile());
-        let relation = if found.holds() { "=" } else { "<" };
+        let printed = found.printed.decision.rank;
+        let equation = if printed == n + r {
+            format!("{printed} = {n} + {r}")
+        } else if found.holds() {
+            format!(
+                "the printed matrix has rank {printed} within its threshold, not {n} + {r}; the compressed one decides"
+            )
+        } else {
+            format!("{printed} < {n} + {r}")
+        };
         result.summary = format!(
-            "{} {relation} {n} + {r}; on the algebraic part: rank {} of {} needed, smallest singular value {:.3e}",
-            found.printed.decision.rank,
+            "{equation}; on the algebraic part: rank {} of {} needed, smallest singular value {:.3e}",
             found.compressed.decision.rank,
             found.compressed.needed,
             found.compressed.decision.smallest()
