@@ -28,9 +28,7 @@ impl<'de> Visitor<'de> for Walk {
         while let Some(key) = map.next_key::<String>()? {
             if seen.contains(&key) {
                 let short: String = key.chars().take(40).collect();
-                return Err(A::Error::custom(format!(
-                    "the key \"{short}\" stands twice in one object; remove one"
-                )));
+                return Err(A::Error::custom(format!("a second key \"{short}\"")));
             }
             map.next_value::<Unambiguous>()?;
             seen.insert(key);

@@ -197,17 +197,16 @@ fn light(
         return light(Light::Missing, "needs an unknown input: D has no columns");
     }
     let asked;
-    let found = match known {
-        Some(known) => known,
-        None => {
-            let choice = PoleDesign { method, ..document.design.clone() };
-            match conditions(system, &choice, &document.tolerance) {
-                Ok(found) => {
-                    asked = found;
-                    asked.as_slice()
-                }
-                Err(error) => return light(Light::Fails, &error.to_string()),
+    let found = if let Some(known) = known {
+        known
+    } else {
+        let choice = PoleDesign { method, ..document.design.clone() };
+        match conditions(system, &choice, &document.tolerance) {
+            Ok(found) => {
+                asked = found;
+                asked.as_slice()
             }
+            Err(error) => return light(Light::Fails, &error.to_string()),
         }
     };
     let needed = || found.iter().filter(|condition| condition.needed);
