@@ -262,7 +262,7 @@ fn networks_are_checked() {
         ("entries", "[[1, 0, 1]]", "system.network.Gamma.entries[1][2]", "a whole number from 1 to 3"),
         ("entries", "[[1, 1, null]]", "system.network.Gamma.entries[1][3]", "a finite number"),
         ("entries", "[[1, 1]]", "system.network.Gamma.entries[1]", "[row, column, value]"),
-        ("rows", "6000", "system.network.Gamma.rows", "a whole number from 1 to 5000"),
+        ("rows", "6000", "system.network.Gamma.rows", "a whole number from 1 to 2000"),
     ] {
         assert_refused(&changed(NETWORK, &gamma(key), value), place, need);
     }

@@ -614,3 +614,52 @@ fn entries_of_many_decades_are_met_with_advice() {
         );
     }
 }
+
+/// A check that cannot fail proves nothing: every matrix of a design, changed a little, must be found out.
+#[test]
+fn verification_finds_a_small_change_of_any_matrix() {
+    let system = system();
+    let found = assessed(Method::ProportionalIntegral, Order::Full);
+    let design = found.outcome.unwrap();
+    let expected: Vec<Complex64> = design.placement.requested.clone();
+    let verdict = |observer: &descry::observer::LinearObserver, claim: &descry::observer::Claim| {
+        descry::observer::verify(&system, observer, claim, &expected, &Tolerance::default())
+            .unwrap()
+            .verified()
+    };
+    assert!(verdict(&design.observer, &design.claim), "the design itself is verified");
+    let spoilt = |matrix: &DMatrix<f64>| {
+        let mut spoilt = matrix.clone();
+        spoilt[(0, 0)] += 1e-3 * (1.0 + matrix.amax());
+        spoilt
+    };
+    let o = &design.observer;
+    type Change = fn(&mut descry::observer::LinearObserver) -> &mut DMatrix<f64>;
+    let changes: [(&str, Change); 9] = [
+        ("N", |o| &mut o.N),
+        ("L", |o| &mut o.L),
+        ("H", |o| &mut o.H),
+        ("P", |o| &mut o.P),
+        ("V", |o| &mut o.V),
+        ("W", |o| &mut o.W),
+        ("Q", |o| &mut o.Q),
+        ("R", |o| &mut o.R),
+        ("S", |o| &mut o.S),
+    ];
+    for (name, change) in changes {
+        let mut observer = o.clone();
+        let matrix = change(&mut observer);
+        *matrix = spoilt(matrix);
+        assert!(!verdict(&observer, &design.claim), "a wrong {name} goes unnoticed");
+    }
+    for (name, part) in [("T", &design.claim.T), ("G", &design.claim.G)] {
+        let mut claim = design.claim.clone();
+        let wrong = spoilt(part);
+        if name == "T" {
+            claim.T = wrong;
+        } else {
+            claim.G = wrong;
+        }
+        assert!(!verdict(o, &claim), "a wrong {name} goes unnoticed");
+    }
+}

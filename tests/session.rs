@@ -506,3 +506,31 @@ proptest! {
         let _found = analysis(&session);
     }
 }
+
+/// Every pole that the order uses can be pulled off the axis, as a mouse does, and the design stays verified.
+#[test]
+fn a_used_pole_pulled_off_the_axis_takes_a_used_partner() {
+    for (index, order) in [(0, Order::Reduced), (1, Order::Reduced), (2, Order::Reduced), (4, Order::Full)] {
+        let mut session = Session::with_first_example().unwrap();
+        update(&mut session, Command::Edit(Edit::Order(order)));
+        let from = session.document().design.poles[index];
+        let to = Complex64::new(from.re, 5.0);
+        update(&mut session, Command::Edit(Edit::MovePole { index, to, done: true }));
+        let analysis = descry::session::analyse(session.document(), &mut |_, _| true).unwrap();
+        assert!(
+            analysis.verified(),
+            "pole {index} of {order:?}: {:?}",
+            analysis.assessment.map(|a| a.outcome)
+        );
+    }
+}
+
+#[test]
+fn a_block_pasted_over_the_edge_grows_the_system() {
+    let mut session = Session::with_first_example().unwrap();
+    let cell = Cell { matrix: Matrix::A, row: 3, column: 3 };
+    update(&mut session, Command::Edit(Edit::Paste { cell, text: "7 8".to_owned() }));
+    let system = session.document().system().unwrap();
+    assert_eq!((system.n_states(), system.A[(3, 3)], system.A[(3, 4)]), (5, 7.0, 8.0), "one more state");
+    assert_eq!(system.A[(2, 0)], -1.0, "nothing is cut");
+}

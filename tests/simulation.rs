@@ -468,9 +468,9 @@ fn limits_and_shapes_are_named() {
     observer.V = DMatrix::zeros(3, 1);
     let error = simulate(&plant, &[(&observer, &[0.0])], &[0.0; 2], &NONE, span(1.0, 10)).unwrap_err();
     assert!(error.to_string().starts_with("V of observer 1 is 3 x 1"), "{error}");
-    let large = output_only(2, 1, 1, DMatrix::zeros(199, 199), DMatrix::zeros(199, 1));
-    let error = simulate(&plant, &[(&large, &[0.0; 199])], &[0.0; 2], &NONE, span(1.0, 10)).unwrap_err();
-    assert_eq!(error, SimulationError::TooLarge { found: 201, most: 200 }, "two states and 199");
+    let large = output_only(2, 1, 1, DMatrix::zeros(399, 399), DMatrix::zeros(399, 1));
+    let error = simulate(&plant, &[(&large, &[0.0; 399])], &[0.0; 2], &NONE, span(1.0, 10)).unwrap_err();
+    assert_eq!(error, SimulationError::TooLarge { found: 401, most: 400 }, "two states and 399");
     let wrong = Uncertainty { amplitude: dmatrix![1.0], frequency: dmatrix![1.0], scale: 1.0 };
     let error = Plant::new(&lag(1.0), Some(&wrong), &Tolerance::default()).unwrap_err();
     assert!(error.to_string().contains("amplitude is 1 x 1"), "{error}");

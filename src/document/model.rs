@@ -2,6 +2,7 @@
 #![expect(non_snake_case, reason = "matrix letters of the canonical form")]
 
 use super::entry::{Entry, EntryMatrix};
+use super::limits::MAX_EXPANDED;
 use crate::numerics::Tolerance;
 use crate::observer::PoleDesign;
 use crate::paper::FigureRecipe;
@@ -260,7 +261,13 @@ impl Document {
     pub fn system(&self) -> Result<DescriptorSystem, SystemError> {
         match &self.plant {
             PlantData::Descriptor(data) => data.system(),
-            PlantData::Network(data) => Ok(data.network()?.expanded()),
+            PlantData::Network(data) => {
+                let found = data.a.shape().0 * data.Gamma.shape().0;
+                if found > MAX_EXPANDED {
+                    return Err(SystemError::TooLarge { found, limit: MAX_EXPANDED });
+                }
+                Ok(data.network()?.expanded())
+            }
         }
     }
 

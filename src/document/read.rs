@@ -160,6 +160,9 @@ fn at_matrix(place: &str, error: &SystemError) -> DocumentError {
             "a finite number is needed",
         ),
         SystemError::NoStates => DocumentError::at(place, "no states", error.to_string()),
+        SystemError::TooLarge { found, .. } => {
+            DocumentError::at(place, format!("{found} states"), error.to_string())
+        }
     }
 }
 

@@ -6,8 +6,9 @@ use super::plot::{multiples, round_step, short};
 use super::{Output, theme};
 use crate::document::PlantData;
 use crate::numerics::Complex64;
+use crate::observer::scaled_pole;
 use crate::observer::show;
-use crate::session::{Derived, Edit, Session, unscaled};
+use crate::session::{Derived, Edit, Session};
 use crate::system::TimeDomain;
 
 /// Distance in points from a pole within which it is taken: by a mouse, by a finger.
@@ -44,7 +45,7 @@ impl Poles {
         let scale = document.design.scale;
         // undoing the inverse scale is scaling
         let wished: Vec<Complex64> =
-            document.design.poles.iter().map(|pole| unscaled(*pole, 1.0 / scale, discrete)).collect();
+            document.design.poles.iter().map(|pole| scaled_pole(*pole, scale, discrete)).collect();
         let mut poles = Self { discrete, scale, used: wished.len(), wished, ..Self::default() };
         if let Some(analysis) = derived.analysis() {
             poles.plant.clone_from(&analysis.plant_eigenvalues);
@@ -178,7 +179,7 @@ impl Plane<'_> {
     }
 
     fn move_to(&self, index: usize, to: Complex64, done: bool, out: &mut Output) {
-        let to = unscaled(to, self.poles.scale, self.poles.discrete);
+        let to = scaled_pole(to, 1.0 / self.poles.scale, self.poles.discrete);
         out.edit(Edit::MovePole { index, to, done });
     }
 

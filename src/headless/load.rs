@@ -2,12 +2,9 @@
 
 use super::{Files, Refusal, Source};
 use crate::document::limits::MAX_BYTES;
-use crate::document::{Document, PlantData, nearest, read_document};
+use crate::document::{Document, nearest, read_document};
 use crate::paper::{EXAMPLES, Example, example};
 use crate::system::DescriptorSystem;
-
-/// Most states of a network that is expanded to one descriptor system.
-const MOST_STATES: usize = 300;
 
 /// A document and the system that it describes.
 #[derive(Debug)]
@@ -26,15 +23,6 @@ pub(super) fn load(source: &Source, files: &dyn Files) -> Result<Problem, Refusa
     };
     let at = |error: &dyn std::fmt::Display| Refusal::bad_input(format!("{name}: {error}"));
     let document = read_document(&text).map_err(|error| at(&error))?;
-    if let PlantData::Network(data) = &document.plant {
-        let states = data.a.shape().0 * data.Gamma.shape().0;
-        if states > MOST_STATES {
-            return Err(at(&format!(
-                "the network has {states} states together; designs for the network as one system take at most \
-                 {MOST_STATES}"
-            )));
-        }
-    }
     let system = document.system().map_err(|error| at(&error))?;
     Ok(Problem { document, system })
 }

@@ -125,6 +125,20 @@ impl DesignError {
     }
 }
 
+/// A pole with the bandwidth factor applied: times `scale`, or in discrete time to the power `scale`.
+///
+/// A real pole of a difference equation keeps its sign: only its modulus, which is its speed, takes the power.
+pub fn scaled_pole(pole: Complex64, scale: f64, discrete: bool) -> Complex64 {
+    if !discrete || pole.norm() == 0.0 {
+        return if discrete { pole } else { pole * scale };
+    }
+    let modulus = pole.norm().powf(scale);
+    if pole.im == 0.0 {
+        return Complex64::from(modulus.copysign(pole.re));
+    }
+    Complex64::from_polar(modulus, pole.arg() * scale)
+}
+
 /// The first `needed` poles of a list, scaled; a conjugate pair is never cut.
 ///
 /// Scaling multiplies poles in continuous time and takes the power `scale` in discrete time (`z = exp(s T)`), so that
@@ -141,11 +155,15 @@ pub fn chosen_poles(
     if poles.len() < needed {
         return Err(DesignError::TooFewPoles { given: poles.len(), needed });
     }
-    let scaled = |z: &Complex64| match (discrete, z.norm() == 0.0) {
-        (false, _) => z * scale,
-        (true, true) => *z,
-        (true, false) => Complex64::from_polar(z.norm().powf(scale), z.arg() * scale),
-    };
+    if discrete
+        && poles[..needed].iter().any(|z| z.im != 0.0 && (z.arg() * scale).abs() > std::f64::consts::PI)
+    {
+        return Err(DesignError::Poles(format!(
+            "the scale {scale} turns a complex pole beyond the negative real axis, where it stands for another \
+             frequency: choose a smaller scale"
+        )));
+    }
+    let scaled = |z: &Complex64| scaled_pole(*z, scale, discrete);
     let chosen: Vec<Complex64> = poles[..needed].iter().map(scaled).collect();
     if let Some(bad) = chosen.iter().find(|z| !z.re.is_finite() || !z.im.is_finite()) {
         return Err(DesignError::Poles(format!("the pole {bad} is not finite")));

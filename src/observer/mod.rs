@@ -10,7 +10,7 @@ mod verify;
 
 pub use choice::{Assessment, Method, Order, PoleDesign, assess, conditions};
 pub use condition::{Condition, Evidence, Formula, FormulaPart, PointEvidence, Verdict, Witness};
-pub use design::{Claim, Design, DesignError, NamedMatrix, chosen_poles};
+pub use design::{Claim, Design, DesignError, NamedMatrix, chosen_poles, scaled_pole};
 pub use realization::LinearObserver;
 pub use verify::{Check, Response, Verification, unknown_input_response, verify};
 

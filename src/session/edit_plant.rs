@@ -78,16 +78,19 @@ fn paste(document: &mut Document, cell: Cell, text: &str) -> Edited {
     };
     let PlantData::Descriptor(data) = &mut document.plant else { return Edited::Done };
     let (rows, columns) = data.matrix(cell.matrix).shape();
-    let fits = cell.row + pasted.rows <= rows && cell.column + pasted.columns <= columns;
-    let at = if fits { (cell.row, cell.column) } else { (0, 0) };
-    if !fits && (pasted.rows > MAX_SIDE || pasted.columns > MAX_SIDE) {
+    // a block at least as large as the matrix replaces it; any other grows it as far as the block reaches
+    let replaces = pasted.rows >= rows && pasted.columns >= columns;
+    let at = if replaces { (0, 0) } else { (cell.row, cell.column) };
+    let reached = (at.0 + pasted.rows, at.1 + pasted.columns);
+    let shape = if replaces { reached } else { (reached.0.max(rows), reached.1.max(columns)) };
+    if shape.0 > MAX_SIDE || shape.1 > MAX_SIDE {
         return Edited::Refused(format!(
-            "a {} x {} matrix was pasted; at most {MAX_SIDE} rows and columns are possible",
-            pasted.rows, pasted.columns
+            "the pasted block needs a {} x {} matrix; at most {MAX_SIDE} rows and columns are possible",
+            shape.0, shape.1
         ));
     }
-    if !fits {
-        reshape(document, cell.matrix, (pasted.rows, pasted.columns));
+    if shape != (rows, columns) {
+        reshape(document, cell.matrix, shape);
     }
     let PlantData::Descriptor(data) = &mut document.plant else { return Edited::Done };
     let matrix = data.matrix_mut(cell.matrix);
@@ -222,6 +225,18 @@ fn drop_broken_figures(document: &mut Document, sizes: Sizes) {
     let fits = |signals: &Option<Vec<Signal>>, count: usize| {
         signals.as_ref().is_none_or(|signals| signals.is_empty() || signals.len() == count)
     };
+    if let Ok(zero) = Signal::parse("0") {
+        let fit = |signals: &mut Option<Vec<Signal>>, count: usize| {
+            if let Some(signals) = signals.as_mut().filter(|signals| !signals.is_empty()) {
+                signals.resize(count, zero.clone());
+            }
+        };
+        for run in document.figures.iter_mut().flat_map(|figure| figure.runs.iter_mut()) {
+            fit(&mut run.scenario.u, sizes.inputs);
+            fit(&mut run.scenario.d, sizes.unknown);
+            fit(&mut run.scenario.noise, sizes.outputs);
+        }
+    }
     document.figures.retain(|figure| {
         let runs = figure.runs.iter().all(|run| {
             fits(&run.scenario.u, sizes.inputs)

@@ -20,4 +20,4 @@ pub use job::{JobReply, JobRequest, Outcome, Progress, Task, perform};
 pub use poles::poles_text;
 pub use start::{restored_view, view_text};
 pub use state::{Draft, Field, Message, Session, View};
-pub use update::{cell_name, unscaled, update};
+pub use update::{cell_name, update};

@@ -56,7 +56,9 @@ const SNAP: f64 = 0.03;
 
 /// Moves one pole; a pair moves together, a pair dropped on the real axis becomes two real poles, and a real pole
 /// pulled off the axis takes the nearest other real pole along as its conjugate.
-pub(super) fn move_pole(poles: &mut [Complex64], index: usize, to: Complex64) {
+///
+/// The partner of one of the first `used` poles, which the order takes, is sought among these.
+fn move_pole(poles: &mut [Complex64], index: usize, to: Complex64, (used, discrete): (usize, bool)) {
     let Some(&from) = poles.get(index) else { return };
     let on_axis = to.im.abs() <= SNAP * to.norm();
     let conjugate = |k: &usize| *k != index && (poles[*k] - from.conj()).norm() <= 1e-9 * from.norm();
@@ -68,13 +70,15 @@ pub(super) fn move_pole(poles: &mut [Complex64], index: usize, to: Complex64) {
         }
         (Some(partner), true) => {
             poles[index] = Complex64::from(to.re);
-            poles[partner] = Complex64::from(to.re * 1.05);
+            poles[partner] = Complex64::from(beside(to.re, discrete));
         }
         (None, true) => poles[index] = Complex64::from(to.re),
         (None, false) => {
             let real = |k: &usize| *k != index && poles[*k].im == 0.0;
             let distance = |k: usize| (poles[k].re - from.re).abs();
-            let nearest = (0..poles.len()).filter(real).min_by(|&a, &b| distance(a).total_cmp(&distance(b)));
+            // a partner that the order does not use would leave the pair cut
+            let among = if index < used { used.min(poles.len()) } else { poles.len() };
+            let nearest = (0..among).filter(real).min_by(|&a, &b| distance(a).total_cmp(&distance(b)));
             match nearest {
                 Some(nearest) => {
                     poles[index] = to;
@@ -86,23 +90,44 @@ pub(super) fn move_pole(poles: &mut [Complex64], index: usize, to: Complex64) {
     }
 }
 
-/// Adds poles until the chosen order has enough; never removes or moves one.
-///
-/// New poles continue the list to the left of its fastest real part (discrete: between 0.3 and 0.7).
-pub(super) fn provide(document: &mut Document) {
-    let Ok(system) = document.system() else { return };
-    let Ok(rank) = rank(&system.E, 0.0, &document.tolerance) else { return };
+/// A real pole beside another: a little faster.
+fn beside(pole: f64, discrete: bool) -> f64 {
+    match (discrete, pole == 0.0) {
+        (true, true) => 0.05,
+        (true, false) => pole * 0.95,
+        (false, _) => pole * 1.05,
+    }
+}
+
+/// Moves one pole of the document in the plane.
+pub(super) fn drag(document: &mut Document, index: usize, to: Complex64) {
+    let Some((used, time)) = needed(document) else { return };
+    move_pole(&mut document.design.poles, index, to, (used, time == TimeDomain::Discrete));
+}
+
+/// How many poles the chosen order takes at most, and the time domain.
+fn needed(document: &Document) -> Option<(usize, TimeDomain)> {
+    let system = document.system().ok()?;
+    let rank = rank(&system.E, 0.0, &document.tolerance).ok()?;
     let (n, q) = (system.n_states(), system.n_unknown_inputs());
-    let design = &mut document.design;
-    let needed = match (design.method, design.order) {
+    let needed = match (document.design.method, document.design.order) {
         (Method::Proportional, Order::Reduced) => rank.rank,
         (Method::Proportional, Order::Full | Order::General) => n,
         (Method::ProportionalIntegral, Order::Reduced) => rank.rank + q,
         (Method::ProportionalIntegral, Order::Full | Order::General) => n + q,
     };
+    Some((needed, system.time))
+}
+
+/// Adds poles until the chosen order has enough; never removes or moves one.
+///
+/// New poles continue the list to the left of its fastest real part (discrete: between 0.3 and 0.7).
+pub(super) fn provide(document: &mut Document) {
+    let Some((needed, time)) = needed(document) else { return };
+    let design = &mut document.design;
     while design.poles.len() < needed.min(MAX_POLES) {
         let k = design.poles.len();
-        let next = match system.time {
+        let next = match time {
             TimeDomain::Continuous => {
                 let fastest = design.poles.iter().map(|pole| pole.re).fold(-1.0, f64::min);
                 let next = fastest * 1.2;
@@ -114,12 +139,11 @@ pub(super) fn provide(document: &mut Document) {
         };
         design.poles.push(Complex64::from(next));
     }
-    pair_up(document, needed);
+    pair_up(&mut document.design.poles, needed, time == TimeDomain::Discrete);
 }
 
 /// Where the first `needed` poles would cut a pair, swaps the pair's first member with the next real pole.
-fn pair_up(document: &mut Document, needed: usize) {
-    let poles = &mut document.design.poles;
+fn pair_up(poles: &mut [Complex64], needed: usize, discrete: bool) {
     let used = needed.min(poles.len());
     if used == 0 || conjugate_pairs(&poles[..used]).is_ok() {
         return;
@@ -134,7 +158,7 @@ fn pair_up(document: &mut Document, needed: usize) {
             if let Some(partner) = partner {
                 let re = poles[k].re;
                 poles[k] = Complex64::from(re);
-                poles[partner] = Complex64::from(re * 1.05);
+                poles[partner] = Complex64::from(beside(re, discrete));
             }
         }
         (None, _) => {}
@@ -180,23 +204,23 @@ mod tests {
     #[test]
     fn a_pair_moves_together() {
         let mut poles = [c(-1.0, 1.0), c(-5.0, 0.0), c(-1.0, -1.0)];
-        move_pole(&mut poles, 2, c(-2.0, -3.0));
+        move_pole(&mut poles, 2, c(-2.0, -3.0), (3, false));
         assert_eq!(poles, [c(-2.0, 3.0), c(-5.0, 0.0), c(-2.0, -3.0)], "the conjugate follows");
     }
 
     #[test]
     fn a_real_pole_takes_the_nearest_one_off_the_axis() {
         let mut poles = [c(-1.0, 0.0), c(-9.0, 0.0), c(-2.0, 0.0)];
-        move_pole(&mut poles, 0, c(-1.5, 1.0));
+        move_pole(&mut poles, 0, c(-1.5, 1.0), (3, false));
         assert_eq!(poles, [c(-1.5, 1.0), c(-9.0, 0.0), c(-1.5, -1.0)], "-2 was nearer than -9");
-        move_pole(&mut poles, 0, c(-1.5, 0.001));
+        move_pole(&mut poles, 0, c(-1.5, 0.001), (3, false));
         assert!(poles.iter().all(|pole| pole.im == 0.0), "back on the axis: two real poles again");
     }
 
     #[test]
     fn the_last_real_pole_stays_on_the_axis() {
         let mut poles = [c(-1.0, 0.0)];
-        move_pole(&mut poles, 0, c(-2.0, 5.0));
+        move_pole(&mut poles, 0, c(-2.0, 5.0), (1, false));
         assert_eq!(poles, [c(-2.0, 0.0)], "there is no partner");
     }
 }

@@ -6,7 +6,6 @@ use super::command::{Cell, Command, Edit, Show};
 use super::state::{Draft, Field, Message, Session};
 use super::{edit_plant, edit_scenario, poles};
 use crate::document::{Document, EntryMatrix, PlantData, limits, read_document};
-use crate::numerics::Complex64;
 use crate::paper::example;
 
 /// Carries out a command.
@@ -86,6 +85,11 @@ fn apply(session: &mut Session, edit: Edit) {
     let drag = drag_key(&edit);
     let ends = drag.as_ref().is_none_or(|(_, done)| *done);
     let field = typed_field(&edit);
+    let overwritten = match &edit {
+        Edit::Paste { cell, .. } => Some(cell.matrix),
+        Edit::Fill { matrix, .. } => Some(*matrix),
+        _ => None,
+    };
     let mut document = (*session.document).clone();
     match change(&mut document, edit) {
         Edited::Done => {
@@ -95,7 +99,12 @@ fn apply(session: &mut Session, edit: Edit) {
             let sizes_before = sizes(&session.document);
             let sizes_after = sizes(&document);
             if sizes_before != sizes_after {
-                session.drafts.clear();
+                session.drafts.retain(|field, _| matches!(field, Field::Poles));
+            }
+            if let Some(matrix) = overwritten {
+                session
+                    .drafts
+                    .retain(|field, _| !matches!(field, Field::Cell(cell) if cell.matrix == matrix));
             }
             replace(session, document, drag.map(|(key, _)| key));
         }
@@ -173,7 +182,7 @@ fn change(document: &mut Document, edit: Edit) -> Edited {
         },
         Edit::MovePole { index, to, .. } => {
             if to.re.is_finite() && to.im.is_finite() {
-                poles::move_pole(&mut document.design.poles, index, to);
+                poles::drag(document, index, to);
             }
         }
         Edit::Scale { scale, .. } => {
@@ -204,13 +213,4 @@ fn clipped(text: String) -> String {
 /// A short name for a cell, `A[1, 2]` counted from one.
 pub fn cell_name(cell: Cell) -> String {
     format!("{}[{}, {}]", cell.matrix.letter(), cell.row + 1, cell.column + 1)
-}
-
-/// A pole in a list with its scale undone: what a drag in the plane of scaled poles means for the list.
-pub fn unscaled(pole: Complex64, scale: f64, discrete: bool) -> Complex64 {
-    match (discrete, pole.norm() == 0.0) {
-        (_, true) => pole,
-        (false, false) => pole / scale,
-        (true, false) => Complex64::from_polar(pole.norm().powf(1.0 / scale), pole.arg() / scale),
-    }
 }

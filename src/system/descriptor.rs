@@ -68,6 +68,14 @@ pub enum SystemError {
         /// Column, from zero.
         column: usize,
     },
+    /// More states than one descriptor system may have.
+    #[error("the network has {found} states together; as one descriptor system it may have at most {limit}")]
+    TooLarge {
+        /// States together.
+        found: usize,
+        /// The limit.
+        limit: usize,
+    },
     /// No states at all.
     #[error("E has no columns: a system needs at least one state")]
     NoStates,

@@ -32,7 +32,14 @@ impl Ask<'_> {
             at_integrator.rank,
             at_integrator.smallest()
         );
-        result.evidence.insert(0, evidence("[A* N*; C* 0] at s = 0", at_integrator, n));
+        result.evidence.insert(
+            0,
+            evidence(
+                if discrete { "[A*-E* N*; C* 0] at z = 1" } else { "[A* N*; C* 0] at s = 0" },
+                at_integrator,
+                n,
+            ),
+        );
         if !found.holds() {
             result.remedies = self.sensors(|extended| {
                 Ok(r_detectability(&augmented_system(extended), self.tolerance)?.holds())

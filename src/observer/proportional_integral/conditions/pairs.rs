@@ -11,6 +11,10 @@ use crate::system::TimeDomain;
 use crate::system::properties::PropertyError;
 
 impl Ask<'_> {
+    fn discrete(&self) -> bool {
+        self.system.time == TimeDomain::Discrete
+    }
+
     /// (13): every mode that the full-order observer cannot move is stable.
     // ERRATUM(004, appendix): the proof needs T1 of full column rank, which alternative 3 of (8) does not give; hence
     // (13) is asked of the T1 that is used.
@@ -19,9 +23,14 @@ impl Ask<'_> {
         let mut result = condition(
             "(13)",
             "detectability of the design pair",
-            "rank [sI-T1A -T1N; 0 sI; C 0] = n + nf for all Re s >= 0",
+            if self.discrete() {
+                "rank [zI-T1A -T1N; 0 (z-1)I; C 0] = n + nf for all |z| >= 1"
+            } else {
+                "rank [sI-T1A -T1N; 0 sI; C 0] = n + nf for all Re s >= 0"
+            },
         );
-        self.fill_pair(&mut result, &A, &C, "([T1A T1N; 0 0], [C 0])")?;
+        let of = if self.discrete() { "([T1A T1N; 0 I], [C 0])" } else { "([T1A T1N; 0 0], [C 0])" };
+        self.fill_pair(&mut result, &A, &C, of)?;
         Ok(result)
     }
 
@@ -39,9 +48,14 @@ impl Ask<'_> {
         let mut second = condition(
             "(23)",
             "detectability of the reduced pair",
-            "rank [sI-Ar -N; 0 sI; P3C1 0] = r + nf for all Re s >= 0",
+            if self.discrete() {
+                "rank [zI-Ar -N; 0 (z-1)I; P3C1 0] = r + nf for all |z| >= 1"
+            } else {
+                "rank [sI-Ar -N; 0 sI; P3C1 0] = r + nf for all Re s >= 0"
+            },
         );
-        self.fill_pair(&mut second, &A, &C, "([Ar N; 0 0], [P3C1 0])")?;
+        let of = if self.discrete() { "([Ar N; 0 I], [P3C1 0])" } else { "([Ar N; 0 0], [P3C1 0])" };
+        self.fill_pair(&mut second, &A, &C, of)?;
         Ok(vec![first, second])
     }
 
@@ -53,7 +67,7 @@ impl Ask<'_> {
         of: &str,
     ) -> Result<(), PropertyError> {
         let modes = pbh_modes(A, C, self.tolerance)?;
-        let region = StabilityRegion::of(self.system.time == TimeDomain::Discrete);
+        let region = StabilityRegion::of(self.discrete());
         let margin = region.margin(A.norm().max(1.0), self.tolerance);
         let bad: Vec<&PbhMode> =
             modes.iter().filter(|m| m.unobservable && !region.contains(m.value, margin)).collect();
