@@ -46,7 +46,7 @@ fn pole(word: &str) -> Result<Complex64, String> {
     Ok(Complex64::new(constant(re)?, im))
 }
 
-/// Writes a list as [`parse`] reads it.
+/// Writes a list in the form that it is read back from.
 pub fn poles_text(poles: &[Complex64]) -> String {
     poles.iter().map(|pole| show(*pole)).collect::<Vec<_>>().join(", ")
 }
