@@ -29,7 +29,7 @@ pub use placement::{
     Placement, PlacementError, PlacementMethod, PlacementOptions, PlacementWarning, place_observer,
 };
 pub use random::Random;
-pub use rank::{RankDecision, complex_rank, rank};
+pub use rank::{RankDecision, rank};
 pub use spectrum::{PoleOrPair, conjugate_pairs, matching, sort_spectrum, spectral_distance};
 pub use stability::{ModePosition, StabilityRegion};
 pub use subspace::{Subspaces, null_space, pseudo_inverse, subspaces};

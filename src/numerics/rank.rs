@@ -1,10 +1,9 @@
 //! Rank decisions with their evidence.
 
 use nalgebra::DMatrix;
-use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
-use super::{NumericsError, Tolerance, complex_svd, svd};
+use super::{NumericsError, Tolerance, svd};
 
 /// A numerical rank and everything it was decided on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -80,18 +79,6 @@ impl RankDecision {
 /// ```
 pub fn rank(matrix: &DMatrix<f64>, scale: f64, tolerance: &Tolerance) -> Result<RankDecision, NumericsError> {
     Ok(RankDecision::from_singular_values(matrix.shape(), svd(matrix)?.s, scale, tolerance))
-}
-
-/// Decides the rank of a complex matrix, as [`rank`].
-///
-/// # Errors
-/// As [`complex_svd`].
-pub fn complex_rank(
-    matrix: &DMatrix<Complex64>,
-    scale: f64,
-    tolerance: &Tolerance,
-) -> Result<RankDecision, NumericsError> {
-    Ok(RankDecision::from_singular_values(matrix.shape(), complex_svd(matrix)?.s, scale, tolerance))
 }
 
 #[cfg(test)]

@@ -57,11 +57,6 @@ impl PencilStructure {
         self.is_regular().then(|| self.infinite_degrees.last().copied().unwrap_or(0))
     }
 
-    /// The pencil has full column rank for almost all `s`: no right minimal indices.
-    pub fn has_full_column_rank(&self) -> bool {
-        self.right_indices.is_empty()
-    }
-
     /// The finite eigenvalues: those of `finite_e^-1 finite_a`, sorted as [`super::sort_spectrum`] does.
     ///
     /// # Errors
