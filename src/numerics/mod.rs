@@ -15,6 +15,7 @@ mod stability;
 mod subspace;
 mod svd;
 mod tolerance;
+mod watch;
 
 pub use block::{Block, block_matrix, side_by_side, stack};
 pub use eigen::eigenvalues;
@@ -35,3 +36,4 @@ pub use stability::{ModePosition, StabilityRegion};
 pub use subspace::{Subspaces, null_space, pseudo_inverse, subspaces};
 pub use svd::{Svd, complex_svd, svd};
 pub use tolerance::Tolerance;
+pub use watch::Watch;

@@ -2,6 +2,7 @@
 
 mod descriptor;
 mod lipschitz;
+mod model;
 mod network;
 mod partition;
 pub mod properties;
@@ -9,6 +10,7 @@ mod signal;
 
 pub use descriptor::{DescriptorSystem, SystemError, TimeDomain};
 pub use lipschitz::{LipschitzTerm, nonlinearity};
+pub use model::Model;
 pub use network::Network;
 pub use partition::{PartitionError, Subsystem, check_partition};
 pub use signal::Signal;
