@@ -2,6 +2,7 @@
 
 mod choice;
 mod condition;
+pub mod decentralized;
 mod design;
 mod lmi_choice;
 pub mod proportional;
