@@ -20,15 +20,20 @@
 //! | e_i = x_hat_i - x_i | `-e` | | the error; the program's is `x - x_hat` |
 
 mod columns;
+mod conditions;
+mod conditions_modes;
 mod decoupled;
 mod extended;
 mod order;
 mod parameterisation;
+mod setup;
 mod subsystem;
 
 pub use columns::{Assumption1, ColumnError, assumption_1, by_hand, greedy, strong_detectability};
+pub use conditions::{conditions, local_conditions};
 pub use decoupled::Decoupled;
 pub use extended::extended;
 pub use order::{OrderError, check, chosen};
 pub use parameterisation::{LocalMatrices, Parameterisation};
+pub use setup::{Setup, SetupError, exact_columns};
 pub use subsystem::{CutError, LocalProblem, local_problems};
