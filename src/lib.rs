@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Layers, each of which may use only those to its left:
-//! `numerics, expression` <- `system` <- `observer` <- `simulation, paper, document` <- `session, headless` <-
+//! `numerics, expression` <- `lmi` <- `system` <- `observer` <- `simulation, paper, document` <- `session, headless` <-
 //! `platform, gui`.
 
 pub mod document;
@@ -14,6 +14,7 @@ pub mod expression;
 #[cfg(feature = "gui")]
 pub mod gui;
 pub mod headless;
+pub mod lmi;
 pub mod numerics;
 pub mod observer;
 pub mod paper;
