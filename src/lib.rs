@@ -14,6 +14,7 @@ pub mod expression;
 #[cfg(feature = "gui")]
 pub mod gui;
 pub mod headless;
+pub mod lmi;
 pub mod numerics;
 pub mod observer;
 pub mod paper;

@@ -1,0 +1,3 @@
+//! L0: linear matrix inequalities.
+
+pub mod certificate;
