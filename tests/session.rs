@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 
 use descry::document::{Document, EntryMatrix, Matrix, PlantData, read_document, write_document};
-use descry::numerics::Complex64;
+use descry::numerics::{Complex64, Watch};
 use descry::observer::{Method, Order, Verdict};
 use descry::paper::EXAMPLES;
 use descry::session::{
@@ -69,7 +69,7 @@ fn check(session: &Session, after: &str) {
 fn analysis(session: &Session) -> Analysis {
     let mut derived = Derived::default();
     let request = derived.next_request(session).unwrap();
-    match perform(&request, &mut |_, _| true).unwrap().outcome {
+    match perform(&request, &Watch::none()).unwrap().outcome {
         Outcome::Analysis(analysis) => *analysis,
         other => panic!("no analysis: {other:?}"),
     }
@@ -277,7 +277,7 @@ fn a_network_keeps_its_matrices_and_takes_the_rest() {
 }
 
 fn reply(request: &JobRequest) -> JobReply {
-    perform(request, &mut |_, _| true).unwrap()
+    perform(request, &Watch::none()).unwrap()
 }
 
 #[test]
@@ -324,7 +324,7 @@ fn the_chosen_figure_is_computed_when_it_is_on_screen() {
 fn progress_can_stop_a_computation() {
     let session = session();
     let request = Derived::default().next_request(&session).unwrap();
-    assert!(perform(&request, &mut |_, _| false).is_none(), "stopped at the first report");
+    assert!(perform(&request, &Watch::new(|_, _| false)).is_none(), "stopped at the first report");
 }
 
 #[test]
@@ -516,7 +516,7 @@ fn a_used_pole_pulled_off_the_axis_takes_a_used_partner() {
         let from = session.document().design.poles[index];
         let to = Complex64::new(from.re, 5.0);
         update(&mut session, Command::Edit(Edit::MovePole { index, to, done: true }));
-        let analysis = descry::session::analyse(session.document(), &mut |_, _| true).unwrap();
+        let analysis = descry::session::analyse(session.document(), &Watch::none()).unwrap();
         assert!(
             analysis.verified(),
             "pole {index} of {order:?}: {:?}",

@@ -50,9 +50,9 @@ impl Poles {
         if let Some(analysis) = derived.analysis() {
             poles.plant.clone_from(&analysis.plant_eigenvalues);
             if let Some(design) = analysis.assessment.as_ref().ok().and_then(|a| a.outcome.as_ref().ok()) {
-                poles.used = design.placement.requested.len().min(poles.used);
-                poles.achieved.clone_from(&design.placement.achieved);
-                poles.fixed.clone_from(&design.placement.fixed_modes);
+                poles.used = design.synthesis.placement().map_or(0, |p| p.requested.len()).min(poles.used);
+                poles.achieved.clone_from(&design.verification.spectrum);
+                poles.fixed = design.synthesis.fixed_modes();
             }
         }
         poles

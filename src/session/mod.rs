@@ -16,7 +16,7 @@ pub use analysis::{Analysis, Light, MethodLight, Property, Simulation, analyse};
 pub use command::{Cell, Command, Edit, Fill, Place, Show, SignalList, Size, Tab, ThemeChoice};
 pub use derived::Derived;
 pub use history::History;
-pub use job::{JobReply, JobRequest, Outcome, Progress, Task, perform};
+pub use job::{JobReply, JobRequest, Outcome, Task, perform};
 pub use poles::poles_text;
 pub use start::{restored_view, view_text};
 pub use state::{Draft, Field, Message, Session, View};

@@ -49,7 +49,7 @@ pub fn conditions(
     match order {
         Order::Full => result.push(ask.condition_13(&equivalent)?),
         Order::Reduced => result.extend(ask.conditions_22_23(&equivalent)?),
-        Order::General => {}
+        Order::General | Order::Minimal => {}
     }
     advise_units(system, &mut result);
     Ok(result)
