@@ -19,20 +19,31 @@
 //! | N_i, M_i, J_i, P_i, Q_i, F_i | [`LocalMatrices`]; `N`, `H`, `L`, `P`, `-W`, `V` of [`super::LinearObserver`] | | the observer |
 //! | e_i = x_hat_i - x_i | `-e` | | the error; the program's is `x - x_hat` |
 
+mod certificate;
 mod columns;
+mod composite;
 mod conditions;
 mod conditions_modes;
 mod decoupled;
+mod design;
+mod executor;
 mod extended;
+mod inequality;
+mod local;
+mod nearest;
 mod order;
 mod parameterisation;
 mod setup;
 mod subsystem;
 
 pub use columns::{Assumption1, ColumnError, assumption_1, by_hand, greedy, strong_detectability};
+pub use composite::composite;
 pub use conditions::{conditions, local_conditions};
 pub use decoupled::Decoupled;
+pub use design::{LocalOutcomes, design, design_subsystems, design_with};
+pub use executor::{Executor, Sequential};
 pub use extended::extended;
+pub use local::{Local, design_local};
 pub use order::{OrderError, check, chosen};
 pub use parameterisation::{LocalMatrices, Parameterisation};
 pub use setup::{Setup, SetupError, exact_columns};
