@@ -36,6 +36,7 @@ mod parameterisation;
 mod setup;
 mod subsystem;
 
+pub use certificate::certify;
 pub use columns::{Assumption1, ColumnError, assumption_1, by_hand, greedy, strong_detectability};
 pub use composite::composite;
 pub use conditions::{conditions, local_conditions};
