@@ -30,10 +30,12 @@ mod balance;
 mod clarabel;
 mod expression;
 mod operators;
+mod optimise;
 mod outcome;
 mod phases;
 mod problem;
 mod program;
+mod run;
 mod scaled;
 mod solution;
 
