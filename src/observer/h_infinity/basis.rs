@@ -35,7 +35,8 @@ pub(super) fn orthonormal_rows(basis: &DMatrix<f64>) -> DMatrix<f64> {
     let mut result = DMatrix::zeros(rows, columns);
     for k in 0..rows {
         let largest = projector.diagonal().iter().copied().fold(0.0, f64::max);
-        let Some(pivot) = (0..columns).find(|&j| projector[(j, j)] >= ALMOST * largest && largest > 0.0) else {
+        let Some(pivot) = (0..columns).find(|&j| projector[(j, j)] >= ALMOST * largest && largest > 0.0)
+        else {
             break;
         };
         let mut row = projector.row(pivot).into_owned();

@@ -157,12 +157,7 @@ fn with_slack(
 }
 
 /// Decay, conditioning and gain: what makes the infimum a minimum.
-fn well_posed(
-    problem: &mut Problem,
-    unknowns: &Unknowns<'_>,
-    family: &Parameterisation,
-    demands: &Demands,
-) {
+fn well_posed(problem: &mut Problem, unknowns: &Unknowns<'_>, family: &Parameterisation, demands: &Demands) {
     let Parameterisation { Lambda_N, L_N, .. } = family;
     let Unknowns { X, W, .. } = unknowns;
     let (q, l) = (family.order(), family.free_columns());

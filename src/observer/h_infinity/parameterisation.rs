@@ -90,7 +90,11 @@ pub struct Matrices {
 ///
 /// # Errors
 /// When a decomposition fails its check.
-pub fn default_rows(plant: &Plant, order: Order, tolerance: &Tolerance) -> Result<DMatrix<f64>, NumericsError> {
+pub fn default_rows(
+    plant: &Plant,
+    order: Order,
+    tolerance: &Tolerance,
+) -> Result<DMatrix<f64>, NumericsError> {
     let n = plant.n();
     let unseen = |matrix: &DMatrix<f64>| {
         null_space(matrix, 0.0, tolerance).map(|basis| orthonormal_rows(&basis.transpose()))
@@ -126,7 +130,8 @@ impl Parameterisation {
         let ((Lambda_N, Lambda_Psi, Lambda_J), (L_N, L_Psi, L_J)) = (parts(&Lambda), parts(&L));
         let (P, Q, V) = parts(&Omega_pinv);
         let (Phi_G, Phi_D) = (product(&[&plant.Phi, &plant.acting()]), product(&[&plant.Phi, &system.D]));
-        let sum = |terms: [DMatrix<f64>; 2]| tidy(&(&terms[0] + &terms[1]), terms[0].norm() + terms[1].norm());
+        let sum =
+            |terms: [DMatrix<f64>; 2]| tidy(&(&terms[0] + &terms[1]), terms[0].norm() + terms[1].norm());
         // ERRATUM(002, Delta_TD): printed -Delta_Psi Lambda Phi D; the Lambda belongs to the next symbol
         let Lambda_TG = sum([product(&[&T_tilde, &plant.acting()]), -product(&[&Lambda_Psi, &Phi_G])]);
         let L_TG = -product(&[&L_Psi, &Phi_G]);
@@ -202,6 +207,24 @@ impl Parameterisation {
             P: self.P.clone(),
             Q: self.Q.clone(),
             V: self.V.clone(),
+        }
+    }
+
+    /// The family that has one member alone: the one of a free matrix, q x l.
+    pub fn fixed_at(&self, Z: &DMatrix<f64>) -> Self {
+        let none = |m: &DMatrix<f64>| DMatrix::zeros(0, m.ncols());
+        Self {
+            Lambda_N: &self.Lambda_N - Z * &self.L_N,
+            Lambda_Psi: &self.Lambda_Psi - Z * &self.L_Psi,
+            Lambda_J: &self.Lambda_J - Z * &self.L_J,
+            Lambda_TG: &self.Lambda_TG - Z * &self.L_TG,
+            Lambda_phi1: &self.Lambda_phi1 - Z * &self.L_phi1,
+            L_N: none(&self.L_N),
+            L_Psi: none(&self.L_Psi),
+            L_J: none(&self.L_J),
+            L_TG: none(&self.L_TG),
+            L_phi1: none(&self.L_phi1),
+            ..self.clone()
         }
     }
 
