@@ -228,7 +228,10 @@ impl Parameterisation {
         }
     }
 
-    /// The free matrix of the member nearest to given `N` and `J`, in the sense of least squares.
+    /// The free matrix of the member nearest to given `N` and `J`.
+    ///
+    /// `N` decides how the error behaves, hence it is matched first, by least squares; what that leaves open is matched
+    /// to `J`.
     ///
     /// # Errors
     /// When a decomposition fails its check.
@@ -238,7 +241,10 @@ impl Parameterisation {
         J: &DMatrix<f64>,
         tolerance: &Tolerance,
     ) -> Result<DMatrix<f64>, NumericsError> {
-        let wanted = side_by_side(&[&(&self.Lambda_N - N), &(&self.Lambda_J - J)]);
-        Ok(wanted * pseudo_inverse(&side_by_side(&[&self.L_N, &self.L_J]), tolerance)?)
+        let by_N = (&self.Lambda_N - N) * pseudo_inverse(&self.L_N, tolerance)?;
+        let open = subspaces(&self.L_N, 1.0, tolerance)?.left_null;
+        let rest = &self.Lambda_J - J - &by_N * &self.L_J;
+        let by_J = rest * pseudo_inverse(&open.tr_mul(&self.L_J), tolerance)?;
+        Ok(by_N + by_J * open.transpose())
     }
 }
