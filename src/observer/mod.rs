@@ -3,6 +3,7 @@
 mod choice;
 mod condition;
 mod design;
+pub mod h_infinity;
 mod lmi_choice;
 pub mod proportional;
 pub mod proportional_integral;
