@@ -290,7 +290,7 @@ fn errors(method: Method, order: Order, unknown: Option<&str>) -> (Trajectory, V
         scenario.d = vec![Signal::parse(text).unwrap()];
     }
     let design = assessed(method, order).outcome.unwrap();
-    let trajectory = scenario.run(&system, &[&design.observer], &document.tolerance).unwrap();
+    let trajectory = scenario.run_linear(&system, &[&design.observer], &document.tolerance).unwrap();
     let rms = trajectory.rms(&trajectory.observers[0].e, 1.0);
     (trajectory, rms)
 }
