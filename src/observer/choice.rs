@@ -32,7 +32,7 @@ impl Method {
         match self {
             Self::Proportional => "proportional",
             Self::ProportionalIntegral => "proportional-integral",
-            Self::HInfinity => "h-infinity",
+            Self::HInfinity => "h-infinity-lipschitz",
             Self::Decentralized => "decentralized",
         }
     }

@@ -109,7 +109,7 @@ pub fn analyse(document: &Document, watch: &Watch) -> Option<Analysis> {
     if !watch.go_on(0.8, "simulation") {
         return None;
     }
-    let simulation = simulation(document, system, assessment.as_ref());
+    let simulation = simulation(document, &model, assessment.as_ref());
     let design = assessment.as_ref().ok().and_then(|a| a.outcome.as_ref().ok());
     let bode = design.and_then(|design| standard::bode(system, design));
     Some(Analysis { properties, plant_eigenvalues, methods, assessment, simulation, bode })
@@ -135,9 +135,10 @@ impl Analysis {
 
 fn simulation(
     document: &Document,
-    system: &DescriptorSystem,
+    model: &Model,
     assessment: Result<&Assessment, &String>,
 ) -> Result<Simulation, String> {
+    let system = &model.system;
     let assessment = assessment.map_err(Clone::clone)?;
     let design =
         assessment.outcome.as_ref().map_err(|error| format!("there is no observer to simulate: {error}"))?;
@@ -158,8 +159,8 @@ fn simulation(
     Ok(Simulation {
         rms: trajectory.rms(&observer.e, half),
         rms_unknown: trajectory.rms(&observer.e_d, half),
-        states: standard::states(&trajectory, system.time),
-        errors: standard::errors(&trajectory, system.time),
+        states: standard::states(&trajectory, system.time, &model.partition),
+        errors: standard::errors(&trajectory, system.time, &model.partition),
         unknown_input: standard::unknown_inputs(&trajectory, system.time),
         notes,
     })
