@@ -4,7 +4,7 @@ use super::model_edits::{LipschitzEdit, LipschitzMatrix};
 use super::state::{Draft, Field};
 use super::update::Edited;
 use crate::document::limits::{MAX_SIDE, MAX_TEXT};
-use crate::document::{Document, Entry, EntryMatrix, LipschitzData, Matrix, PlantData};
+use crate::document::{Document, Entry, EntryMatrix, LipschitzData, Matrix, PlantData, matrix_from_text};
 use crate::system::nonlinearity;
 
 /// Largest constant that documents hold.
@@ -38,6 +38,9 @@ pub(super) fn change(document: &mut Document, edit: LipschitzEdit) -> Edited {
                 return Edited::Draft(Field::Lipschitz(matrix, row, column), Draft { text, error });
             }
         },
+        LipschitzEdit::Paste { matrix, text } => {
+            return paste(lipschitz, matrix, &text, (equations, states));
+        }
         LipschitzEdit::Component { index, text } => {
             let text = text.trim().to_owned();
             let understood = nonlinearity(&text, states).map_err(|error| error.to_string());
@@ -110,6 +113,34 @@ fn resize(lipschitz: &mut LipschitzData, of: LipschitzMatrix, grow: bool) -> Edi
         LipschitzMatrix::Arguments => {
             lipschitz.F_L = lipschitz.F_L.resized(count, lipschitz.F_L.shape().1);
         }
+    }
+    Edited::Done
+}
+
+/// Puts a whole `G` or `F_L` in force; the side that the system determines must fit.
+fn paste(lipschitz: &mut LipschitzData, of: LipschitzMatrix, text: &str, system: (usize, usize)) -> Edited {
+    let pasted = match matrix_from_text(text) {
+        Ok(pasted) => pasted,
+        Err(error) => return Edited::Refused(format!("what was pasted is not a matrix: {error}")),
+    };
+    let (rows, columns) = (pasted.rows, pasted.columns);
+    let (fits, needed) = match of {
+        LipschitzMatrix::G => (rows == system.0, format!("G needs {} rows, one for each equation", system.0)),
+        LipschitzMatrix::Arguments => {
+            (columns == system.1, format!("F_L needs {} columns, one for each state", system.1))
+        }
+    };
+    if !fits || rows == 0 || columns == 0 || rows.max(columns) > MAX_SIDE {
+        return Edited::Refused(format!("the pasted matrix is {rows} x {columns}: {needed}"));
+    }
+    let entry = |(text, value): &(String, f64)| Entry::typed(text).unwrap_or_else(|_| Entry::number(*value));
+    let entries = EntryMatrix::from_entries(rows, columns, pasted.entries.iter().map(entry).collect());
+    match of {
+        LipschitzMatrix::G => {
+            lipschitz.f.resize(columns, "0".to_owned());
+            lipschitz.G = entries;
+        }
+        LipschitzMatrix::Arguments => lipschitz.F_L = entries,
     }
     Edited::Done
 }

@@ -168,6 +168,13 @@ pub enum LipschitzEdit {
         /// What was typed.
         text: String,
     },
+    /// A whole matrix, as pasted; it brings its number of components or rows along.
+    Paste {
+        /// The matrix.
+        matrix: LipschitzMatrix,
+        /// What was pasted.
+        text: String,
+    },
     /// One component, as typed.
     Component {
         /// Which, from zero.
