@@ -4,6 +4,7 @@ mod choice;
 mod condition;
 pub mod decentralized;
 mod design;
+pub mod h_infinity;
 mod lmi_choice;
 pub mod proportional;
 pub mod proportional_integral;
