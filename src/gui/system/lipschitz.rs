@@ -76,7 +76,7 @@ fn components(
         ui.horizontal(|ui| {
             ui.label(format!("{name}(x) ="));
             let id = Id::unique(("component", index));
-            let width = ui.available_width();
+            let width = ui.available_width() - theme::BLOCK_GAP;
             if let Some(text) = text_field(ui, widgets, (id, &name), shown, draft, width) {
                 out.edit(Edit::Lipschitz(LipschitzEdit::Component { index, text }));
             }
