@@ -341,7 +341,7 @@ fn the_printed_lyapunov_matrices_prove_only_large_gammas() {
 fn trajectory(observer: &LinearObserver) -> Trajectory {
     let document = read_document(include_str!("documents/000-partition.json")).unwrap();
     let system = model(TimeDomain::Discrete).system;
-    document.scenario(&system).run(&system, &[observer], &tolerance()).unwrap()
+    document.scenario(&system).run_linear(&system, &[observer], &tolerance()).unwrap()
 }
 
 fn vector(value: &Value) -> Vec<f64> {
