@@ -4,7 +4,8 @@
 #![cfg(not(target_arch = "wasm32"))]
 
 use descry::document::{Document, read_document, write_document_compact};
-use descry::observer::{Order, PoleDesign, assess, conditions};
+use descry::numerics::Watch;
+use descry::observer::{DesignChoice, Order, assess, conditions};
 use descry::paper::example;
 use descry::session::{JobRequest, Task, analyse, perform};
 
@@ -26,27 +27,27 @@ fn document(uncertain: bool) -> Document {
 fn ask_conditions(bencher: divan::Bencher<'_, '_>, order: Order) {
     let document = document(false);
     let Ok(system) = document.system() else { return };
-    let choice = PoleDesign { order, ..document.design.clone() };
-    bencher.bench(|| conditions(&system, &choice, &document.tolerance));
+    let choice = DesignChoice { order, ..document.design.clone() };
+    bencher.bench(|| conditions(&system.clone().into(), &choice, &document.tolerance));
 }
 
 #[divan::bench(args = [Order::Reduced, Order::Full, Order::General])]
 fn conditions_and_design(bencher: divan::Bencher<'_, '_>, order: Order) {
     let document = document(false);
     let Ok(system) = document.system() else { return };
-    let choice = PoleDesign { order, ..document.design.clone() };
-    bencher.bench(|| assess(&system, &choice, &document.tolerance));
+    let choice = DesignChoice { order, ..document.design.clone() };
+    bencher.bench(|| assess(&system.clone().into(), &choice, &document.tolerance, &Watch::none()));
 }
 
 #[divan::bench(args = [false, true])]
 fn whole_analysis(bencher: divan::Bencher<'_, '_>, uncertain: bool) {
     let document = document(uncertain);
-    bencher.bench(|| analyse(&document, &mut |_, _| true));
+    bencher.bench(|| analyse(&document, &Watch::none()));
 }
 
 #[divan::bench(args = [false, true])]
 fn whole_job(bencher: divan::Bencher<'_, '_>, uncertain: bool) {
     let document = write_document_compact(&document(uncertain));
     let request = JobRequest { id: 1, revision: 1, document, task: Task::Analyse };
-    bencher.bench(|| perform(&request, &mut |_, _| true));
+    bencher.bench(|| perform(&request, &Watch::none()));
 }

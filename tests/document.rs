@@ -165,7 +165,7 @@ fn missing_keys_and_wrong_versions_are_named() {
 fn design_choices_are_checked() {
     for (at, value, place, need) in [
         ("/design/method", "\"kalman\"", "design.method", "\"proportional\""),
-        ("/design/order", "\"minimal\"", "design.order", "\"reduced\""),
+        ("/design/order", "\"least\"", "design.order", "\"reduced\""),
         ("/design/order", "3", "design.order", "\"reduced\""),
         ("/design/poles", "-1", "design.poles", "a list of poles"),
         ("/design/poles", "[\"-1\"]", "design.poles[1]", "a number or [real, imaginary]"),
@@ -177,6 +177,17 @@ fn design_choices_are_checked() {
         ("/design/seed", "-1", "design.seed", "a whole number"),
         ("/design/seed", "1.5", "design.seed", "a whole number"),
         ("/design", "[]", "design", "an object is needed"),
+        ("/design/lmi", "7", "design.lmi", "an object is needed"),
+        ("/design/lmi", "{\"decay rate\": 1}", "design.lmi", "the keys here are decay"),
+        ("/design/lmi", "{\"decay\": -1}", "design.lmi.decay", "a number from"),
+        ("/design/lmi", "{\"gain\": \"much\"}", "design.lmi.gain", "\"unbounded\""),
+        ("/design/lmi", "{\"gamma\": 0}", "design.lmi.gamma", "a number from"),
+        ("/design/lmi", "{\"alternative\": 1}", "design.lmi.alternative", "true or false"),
+        ("/design/lmi", "{\"R\": [[1, 2]]}", "design.lmi.R[1]", "a list of"),
+        ("/design/lmi", "{\"decoupled\": [[99]]}", "design.lmi.decoupled[1][1]", "a whole number from 1"),
+        ("/design/lmi", "{\"given\": {\"N\": [[1]]}}", "design.lmi.given", "no key \"J\""),
+        ("/design/lmi", "{\"given\": {\"N\": [[1, 2]], \"J\": [[1]]}}", "design.lmi.given", "N is square"),
+        ("/design/lmi", "{\"seconds\": 1e9}", "design.lmi.seconds", "a number from"),
     ] {
         assert_refused(&changed(WHOLE, at, value), place, need);
     }
@@ -426,7 +437,7 @@ mod random {
     use super::*;
     use descry::document::{DescriptorData, Entry, EntryMatrix, ScenarioData};
     use descry::numerics::{Complex64, Tolerance};
-    use descry::observer::{Method, Order, PoleDesign};
+    use descry::observer::{DesignChoice, GivenObserver, LmiChoice, Method, Order};
     use descry::system::Signal;
     use proptest::prelude::*;
 
@@ -458,7 +469,7 @@ mod random {
         ]
     }
 
-    fn design() -> impl Strategy<Value = PoleDesign> {
+    fn design() -> impl Strategy<Value = DesignChoice> {
         let pole = prop_oneof![
             (-50.0..-0.1).prop_map(|x: f64| vec![Complex64::from(x)]),
             (-50.0..-0.1, 0.1..9.0)
@@ -467,8 +478,47 @@ mod random {
         let poles = prop::collection::vec(pole, 0..4).prop_map(|poles| poles.concat());
         let (methods, orders) =
             (prop::sample::select(&Method::ALL[..]), prop::sample::select(&Order::ALL[..]));
-        (methods, orders, poles, 0.001..1000.0, 0..=u64::from(u32::MAX))
-            .prop_map(|(method, order, poles, scale, seed)| PoleDesign { method, order, poles, scale, seed })
+        (methods, orders, poles, 0.001..1000.0, 0..=u64::from(u32::MAX), demands()).prop_map(
+            |(method, order, poles, scale, seed, lmi)| DesignChoice {
+                method,
+                order,
+                poles,
+                scale,
+                seed,
+                lmi,
+            },
+        )
+    }
+
+    fn demands() -> impl Strategy<Value = LmiChoice> {
+        let size = || prop::option::of(1e-3..1e3);
+        let numbers = |rows: usize, columns: usize| {
+            prop::collection::vec(-9.0..9.0, rows * columns)
+                .prop_map(move |values| nalgebra::DMatrix::from_vec(rows, columns, values))
+        };
+        let given = (1..3_usize, size()).prop_flat_map(move |(q, gamma)| {
+            (numbers(q, q), numbers(q, 1)).prop_map(move |(n, j)| GivenObserver { N: n, J: j, gamma })
+        });
+        let sizes = (size(), size(), size(), 1.0..1e9, 0.001..0.5, 0.1..60.0);
+        let rows = prop::collection::vec(numbers(1, 2), 0..3);
+        let decoupled =
+            prop::option::of(prop::collection::vec(prop::collection::vec(0..1_usize, 0..2), 0..3));
+        (sizes, any::<bool>(), rows, decoupled, prop::option::of(given)).prop_map(
+            |((decay, gain, gamma, conditioning, back_off, seconds), alternative, rows, decoupled, given)| {
+                LmiChoice {
+                    decay,
+                    gain,
+                    conditioning,
+                    gamma,
+                    back_off,
+                    alternative,
+                    rows,
+                    decoupled,
+                    given,
+                    seconds,
+                }
+            },
+        )
     }
 
     fn document() -> impl Strategy<Value = Document> {

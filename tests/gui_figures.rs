@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use descry::gui::App;
+use descry::numerics::Watch;
 use descry::paper::EXAMPLES;
 use descry::platform::Runner;
 use descry::session::{
@@ -17,7 +18,7 @@ struct AtOnce(Vec<JobReply>);
 
 impl Runner for AtOnce {
     fn start(&mut self, request: JobRequest) {
-        self.0.extend(perform(&request, &mut |_, _| true));
+        self.0.extend(perform(&request, &Watch::none()));
     }
 
     fn cancel(&mut self) {

@@ -2,8 +2,8 @@
 #![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail by panicking")]
 
 use descry::document::{Document, read_document};
-use descry::numerics::{Complex64, spectral_distance};
-use descry::observer::{Order, PoleDesign, assess};
+use descry::numerics::{Complex64, Watch, spectral_distance};
+use descry::observer::{DesignChoice, Order, assess};
 use descry::paper::example;
 use descry::platform::message::{FromWorker, decode, encode};
 use descry::platform::{Runner, runner};
@@ -50,8 +50,8 @@ fn request() -> JobRequest {
 
 fn assessed(order: Order) -> descry::observer::Assessment {
     let document = document();
-    let choice = PoleDesign { order, ..document.design.clone() };
-    assess(&document.system().unwrap(), &choice, &document.tolerance).unwrap()
+    let choice = DesignChoice { order, ..document.design.clone() };
+    assess(&document.system().unwrap().into(), &choice, &document.tolerance, &Watch::none()).unwrap()
 }
 
 #[cfg_attr(target_arch = "wasm32", wasm_bindgen_test)]
@@ -85,7 +85,8 @@ fn the_simulated_example_is_the_one_of_the_reference() {
     document.scenario.uncertainty = None;
     let system = document.system().unwrap();
     let design = assessed(Order::Reduced).outcome.unwrap();
-    let run = document.scenario(&system).run(&system, &[&design.observer], &document.tolerance).unwrap();
+    let run =
+        document.scenario(&system).run_linear(&system, &[&design.observer], &document.tolerance).unwrap();
     let rows = reference()["simulation"]["reduced_nominal"].clone();
     for row in rows.as_array().unwrap() {
         let t = row["t"].as_f64().unwrap();
@@ -125,7 +126,7 @@ const NOISE: [f64; 2] = [1.384_991_694_751_739_6, -0.023_116_324_549_388_122];
 #[cfg_attr(target_arch = "wasm32", wasm_bindgen_test)]
 #[cfg_attr(not(target_arch = "wasm32"), test)]
 fn an_analysis_passes_through_the_messages() {
-    let reply = perform(&request(), &mut |_, _| true).unwrap();
+    let reply = perform(&request(), &Watch::none()).unwrap();
     let bytes = encode(&FromWorker::Reply { reply, elapsed_ms: Some(1.0) }).unwrap();
     let back: FromWorker = decode(&bytes).unwrap();
     assert_eq!(encode(&back).unwrap(), bytes, "the same bytes again");
@@ -206,7 +207,7 @@ fn median_ms(uncertainty: f64) -> f64 {
     let mut times: Vec<f64> = (0..20)
         .map(|_| {
             let start = now();
-            assert!(perform(&request, &mut |_, _| true).is_some(), "it comes to its end");
+            assert!(perform(&request, &Watch::none()).is_some(), "it comes to its end");
             start.elapsed().as_secs_f64() * 1e3
         })
         .collect();

@@ -127,6 +127,11 @@ impl<'a> Cursor<'a> {
         Err(self.error(format!("a number from {low} to {high} is needed here")))
     }
 
+    /// `true` or `false`.
+    pub(super) fn truth(&self) -> Result<bool, DocumentError> {
+        self.value.as_bool().ok_or_else(|| self.error("true or false is needed here"))
+    }
+
     /// A whole number within bounds, both included.
     pub(super) fn whole_in(&self, low: u64, high: u64) -> Result<u64, DocumentError> {
         let number = self.value.as_u64().filter(|n| (low..=high).contains(n));

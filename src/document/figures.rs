@@ -6,6 +6,7 @@ use super::DocumentError;
 use super::cursor::{Cursor, Object};
 use super::entry::number;
 use super::limits::MAX_FIGURES;
+use super::lmi::{lmi_value, read_lmi};
 use super::read::{Sizes, method_words, order_words, read_poles, read_signals};
 use super::write::{poles_value, signals_value};
 use crate::paper::{
@@ -65,20 +66,21 @@ fn run(cursor: &Cursor<'_>, sizes: &Sizes) -> Result<RunRecipe, DocumentError> {
     let object = cursor.object(&["name", "design", "scenario"])?;
     Ok(RunRecipe {
         name: object.get("name").map_or(Ok(String::new()), |c| c.text().map(str::to_owned))?,
-        design: object.get("design").map_or(Ok(DesignPatch::default()), |c| design_patch(&c))?,
+        design: object.get("design").map_or(Ok(DesignPatch::default()), |c| design_patch(&c, sizes))?,
         scenario: object
             .get("scenario")
             .map_or(Ok(ScenarioPatch::default()), |c| scenario_patch(&c, sizes))?,
     })
 }
 
-fn design_patch(cursor: &Cursor<'_>) -> Result<DesignPatch, DocumentError> {
-    let object = cursor.object(&["method", "order", "poles", "scale"])?;
+fn design_patch(cursor: &Cursor<'_>, sizes: &Sizes) -> Result<DesignPatch, DocumentError> {
+    let object = cursor.object(&["method", "order", "poles", "scale", "lmi"])?;
     Ok(DesignPatch {
         method: object.get("method").map(|c| c.word(&method_words())).transpose()?,
         order: object.get("order").map(|c| c.word(&order_words())).transpose()?,
         poles: object.get("poles").map(|c| read_poles(&c)).transpose()?,
         scale: object.get("scale").map(|c| c.number_in(1e-3, 1e3)).transpose()?,
+        lmi: object.get("lmi").map(|c| read_lmi(&c, sizes)).transpose()?,
     })
 }
 
@@ -212,6 +214,7 @@ fn run_value(run: &RunRecipe) -> Value {
     design.put("order", run.design.order.map(|o| json!(o.key())));
     design.put("poles", run.design.poles.as_deref().map(poles_value));
     design.put("scale", run.design.scale.map(number));
+    design.put("lmi", run.design.lmi.as_ref().map(|lmi| lmi_value(lmi).unwrap_or_else(|| json!({}))));
     let mut scenario = Writer::default();
     scenario.put("u", run.scenario.u.as_deref().map(signals_value));
     scenario.put("d", run.scenario.d.as_deref().map(signals_value));

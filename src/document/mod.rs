@@ -13,6 +13,7 @@ mod import_latex;
 mod json;
 pub mod limits;
 mod link;
+mod lmi;
 mod matrix_text;
 mod model;
 mod pretty;

@@ -4,11 +4,11 @@
 use super::entry::{Entry, EntryMatrix};
 use super::limits::MAX_EXPANDED;
 use crate::numerics::Tolerance;
-use crate::observer::PoleDesign;
+use crate::observer::DesignChoice;
 use crate::paper::FigureRecipe;
 use crate::simulation::Scenario;
 use crate::system::{
-    DescriptorSystem, LipschitzTerm, Network, Signal, Subsystem, SystemError, TimeDomain, nonlinearity,
+    DescriptorSystem, LipschitzTerm, Model, Network, Signal, Subsystem, SystemError, TimeDomain, nonlinearity,
 };
 
 /// A problem as a person wrote it: system, design choice, scenario and figures.
@@ -23,7 +23,7 @@ pub struct Document {
     /// The system.
     pub plant: PlantData,
     /// The chosen design.
-    pub design: PoleDesign,
+    pub design: DesignChoice,
     /// What happens in the simulation.
     pub scenario: ScenarioData,
     /// Thresholds.
@@ -269,6 +269,20 @@ impl Document {
                 Ok(data.network()?.expanded())
             }
         }
+    }
+
+    /// The system with its nonlinearity and its partition.
+    ///
+    /// # Errors
+    /// The first matrix that does not fit.
+    pub fn model(&self) -> Result<Model, SystemError> {
+        let mut model = Model::from(self.system()?);
+        if let PlantData::Descriptor(data) = &self.plant {
+            model.lipschitz =
+                data.lipschitz.as_ref().and_then(|lipschitz| lipschitz.term(model.system.n_states()));
+            model.partition.clone_from(&data.partition);
+        }
+        Ok(model)
     }
 
     /// The scenario with missing signals and initial states filled by zeros.

@@ -4,12 +4,13 @@
 use super::cursor::{Cursor, Object, parse};
 use super::entry::{Entry, EntryMatrix};
 use super::limits::{MAX_HORIZON, MAX_POLES, MAX_SAMPLES, MAX_SIDE, MAX_SPARSE_ENTRIES, MAX_SUBSYSTEMS};
+use super::lmi::read_lmi;
 use super::model::{
     Coupling, DescriptorData, Document, LipschitzData, NetworkData, PlantData, ScenarioData, UncertaintyData,
 };
 use super::{DocumentError, VERSION, read_figures};
 use crate::numerics::{Complex64, Tolerance};
-use crate::observer::{Method, Order, PoleDesign};
+use crate::observer::{DesignChoice, Method, Order};
 use crate::system::{
     DescriptorSystem, Signal, Subsystem, SystemError, TimeDomain, check_partition, nonlinearity,
 };
@@ -39,7 +40,8 @@ pub fn read_document(text: &str) -> Result<Document, DocumentError> {
     let text = |key| root.get(key).map_or(Ok(String::new()), |cursor| cursor.text().map(str::to_owned));
     let plant = plant(&root.need("system", "the matrices of the system are needed")?)?;
     let sizes = Sizes::of(&plant);
-    let design = root.get("design").map_or(Ok(PoleDesign::default()), |cursor| read_design(&cursor))?;
+    let design =
+        root.get("design").map_or(Ok(DesignChoice::default()), |cursor| read_design(&cursor, &sizes))?;
     let scenario = match root.get("scenario") {
         Some(cursor) => scenario(&cursor, &sizes)?,
         None => ScenarioData::empty(),
@@ -282,15 +284,16 @@ pub(super) fn order_words() -> Vec<(&'static str, Order)> {
     Order::ALL.iter().map(|o| (o.key(), *o)).collect()
 }
 
-fn read_design(cursor: &Cursor<'_>) -> Result<PoleDesign, DocumentError> {
-    let object = cursor.object(&["method", "order", "poles", "scale", "seed"])?;
-    let default = PoleDesign::default();
-    Ok(PoleDesign {
+fn read_design(cursor: &Cursor<'_>, sizes: &Sizes) -> Result<DesignChoice, DocumentError> {
+    let object = cursor.object(&["method", "order", "poles", "scale", "seed", "lmi"])?;
+    let default = DesignChoice::default();
+    Ok(DesignChoice {
         method: object.get("method").map_or(Ok(default.method), |c| c.word(&method_words()))?,
         order: object.get("order").map_or(Ok(default.order), |c| c.word(&order_words()))?,
         poles: object.get("poles").map_or(Ok(Vec::new()), |c| read_poles(&c))?,
         scale: object.get("scale").map_or(Ok(default.scale), |c| c.number_in(1e-3, 1e3))?,
         seed: object.get("seed").map_or(Ok(default.seed), |c| c.whole_in(0, u64::from(u32::MAX)))?,
+        lmi: object.get("lmi").map_or(Ok(default.lmi), |c| read_lmi(&c, sizes))?,
     })
 }
 

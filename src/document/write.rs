@@ -4,13 +4,14 @@ use serde_json::{Map, Value, json};
 
 use super::entry::number;
 use super::figures::figure_value;
+use super::lmi::lmi_value;
 use super::model::{
     Coupling, DescriptorData, Document, LipschitzData, Matrix, NetworkData, PlantData, ScenarioData,
 };
 use super::pretty::pretty;
 use super::{EntryMatrix, VERSION};
 use crate::numerics::{Complex64, Tolerance};
-use crate::observer::PoleDesign;
+use crate::observer::DesignChoice;
 use crate::system::{Signal, Subsystem, TimeDomain};
 
 /// Writes a document; reading the text gives the same document.
@@ -102,11 +103,15 @@ fn coupling_value(coupling: &Coupling) -> Value {
     }
 }
 
-fn design_value(design: &PoleDesign) -> Value {
-    let PoleDesign { method, order, poles, scale, seed } = design;
-    json!({
+fn design_value(design: &DesignChoice) -> Value {
+    let DesignChoice { method, order, poles, scale, seed, lmi } = design;
+    let mut value = json!({
         "method": method.key(), "order": order.key(), "poles": poles_value(poles), "scale": number(*scale), "seed": seed,
-    })
+    });
+    if let Some(lmi) = lmi_value(lmi) {
+        value["lmi"] = lmi;
+    }
+    value
 }
 
 /// Poles as numbers or `[real, imaginary]`.

@@ -5,8 +5,9 @@ use std::path::Path;
 use super::commands::simulated;
 use super::load::{Problem, load};
 use super::{Answer, DONE, Files, REFUSED, Refusal, Source};
-use crate::document::report::{FigureFiles, WrittenFigure, figures_report, unsuitable};
+use crate::document::report::{FigureFiles, WrittenFigure, figures_report};
 use crate::document::{Document, figure_to_csv, figure_to_svg, nearest};
+use crate::numerics::Watch;
 use crate::paper::{self, FigureSpec, compute_figure, standard};
 
 /// A figure before it is written: key, title, and the figure or why there is none.
@@ -46,39 +47,32 @@ pub(super) fn figures(
 
 /// The chosen figures of the document, or the standard ones when it has none.
 fn computed(problem: &Problem, chosen: &dyn Fn(&str) -> bool) -> Result<Vec<Computed>, Refusal> {
-    let Problem { document, system } = problem;
+    let Problem { document, model } = problem;
+    let system = &model.system;
     if document.figures.is_empty() {
         return standard_figures(problem, chosen);
     }
     let scenario = document.scenario(system);
-    let refused = unsuitable(document, system);
     let problem = paper::Problem {
-        system,
+        model,
         design: &document.design,
         scenario: &scenario,
         tolerance: &document.tolerance,
     };
     let recipes = document.figures.iter().filter(|recipe| chosen(&recipe.id));
-    let figure = |recipe: &paper::FigureRecipe| match &refused {
-        Some(why) if is_lipschitz(document) => Err(why.clone()),
-        _ => compute_figure(&problem, recipe),
-    };
+    let figure = |recipe: &paper::FigureRecipe| compute_figure(&problem, recipe, &Watch::none());
     Ok(recipes.map(|recipe| (recipe.id.clone(), recipe.title.clone(), figure(recipe))).collect())
-}
-
-fn is_lipschitz(document: &Document) -> bool {
-    matches!(&document.plant, crate::document::PlantData::Descriptor(data) if data.lipschitz.is_some())
 }
 
 fn standard_figures(problem: &Problem, chosen: &dyn Fn(&str) -> bool) -> Result<Vec<Computed>, Refusal> {
     let (design, trajectory) = simulated(problem)?;
-    let time = problem.system.time;
+    let (time, partition) = (problem.model.system.time, problem.model.partition.as_slice());
     let mut figures = vec![
-        standard::states(&trajectory, time),
-        standard::errors(&trajectory, time),
+        standard::states(&trajectory, time, partition),
+        standard::errors(&trajectory, time, partition),
         standard::unknown_inputs(&trajectory, time),
     ];
-    figures.extend(standard::bode(&problem.system, &design));
+    figures.extend(standard::bode(&problem.model.system, &design));
     figures.retain(|figure| chosen(&figure.id));
     Ok(figures.into_iter().map(|figure| (figure.id.clone(), figure.title.clone(), Ok(figure))).collect())
 }

@@ -4,13 +4,13 @@ use super::{Files, Refusal, Source};
 use crate::document::limits::MAX_BYTES;
 use crate::document::{Document, nearest, read_document};
 use crate::paper::{EXAMPLES, Example, example};
-use crate::system::DescriptorSystem;
+use crate::system::Model;
 
-/// A document and the system that it describes.
+/// A document and the plant that it describes.
 #[derive(Debug)]
 pub(super) struct Problem {
     pub(super) document: Document,
-    pub(super) system: DescriptorSystem,
+    pub(super) model: Model,
 }
 
 /// Reads a document.
@@ -23,8 +23,8 @@ pub(super) fn load(source: &Source, files: &dyn Files) -> Result<Problem, Refusa
     };
     let at = |error: &dyn std::fmt::Display| Refusal::bad_input(format!("{name}: {error}"));
     let document = read_document(&text).map_err(|error| at(&error))?;
-    let system = document.system().map_err(|error| at(&error))?;
-    Ok(Problem { document, system })
+    let model = document.model().map_err(|error| at(&error))?;
+    Ok(Problem { document, model })
 }
 
 /// The example with that key.

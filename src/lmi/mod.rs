@@ -27,6 +27,7 @@
 
 mod affine;
 mod balance;
+pub mod certificate;
 mod clarabel;
 mod expression;
 mod operators;

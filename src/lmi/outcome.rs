@@ -1,45 +1,59 @@
-//! What a design by inequalities can end in.
+//! What came of a design by linear matrix inequalities: never a bare status of a solver.
 
-/// The end of a design by inequalities; never a bare solver status.
-#[derive(Clone, Debug, PartialEq)]
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+/// The outcome of a design.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Outcome<T> {
-    /// Found, and proved by the certificate.
+    /// A design whose guarantee is proved apart from the solver.
     Verified(T),
-    /// Found, but the certificate does not prove it.
+    /// A design that the solver holds to be feasible, but whose guarantee could not be proved.
     NotCertified {
-        /// What was found.
+        /// The design.
         design: T,
-        /// Which proof failed, for a person.
+        /// What could not be proved.
         why: String,
     },
-    /// No solution exists.
+    /// There is no such design.
     Infeasible(Infeasible),
-    /// Stopped on request.
+    /// Somebody no longer wanted it.
     Cancelled,
-    /// Stopped without a decision: a limit was reached or the numbers do not allow one; the text says why.
+    /// The computation came to no decision: why.
     GaveUp(String),
 }
 
-/// Why there is no solution, and how far away one is.
-#[derive(Clone, Debug, PartialEq)]
+/// Why inequalities have no solution.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Infeasible {
-    /// The name of the inequality that stops it.
+    /// Name of the block that stops it.
     pub block: String,
-    /// Where that inequality stands (paper, equation).
+    /// Paper and equation of that block.
     pub source: String,
-    /// The largest margin that is possible in balanced coordinates; zero or negative.
+    /// The largest margin that was reached, negative.
     pub margin: f64,
-    /// For each quantity that was asked for, the nearest value that is feasible with the others unchanged.
+    /// Demands that would be feasible, each changed alone.
     pub nearest: Vec<Nearest>,
 }
 
-/// The nearest feasible value of one quantity.
-#[derive(Clone, Debug, PartialEq)]
+/// A demand that is too strict, and the nearest one that is not.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Nearest {
-    /// "gamma", "decay rate", "Lipschitz constant", "gain bound".
+    /// What: `gamma`, `decay rate`, `gain bound`, `Lipschitz constant`.
     pub quantity: String,
-    /// The value that was asked for.
+    /// What was asked.
     pub asked: f64,
-    /// The nearest value for which a solution exists.
+    /// What is feasible.
     pub feasible: f64,
+}
+
+impl fmt::Display for Infeasible {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the inequalities have no solution: {} ({}) stops them", self.block, self.source)?;
+        for Nearest { quantity, asked, feasible } in &self.nearest {
+            write!(f, "; {quantity} {asked:.4} is asked, {feasible:.4} is feasible")?;
+        }
+        Ok(())
+    }
 }

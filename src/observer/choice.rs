@@ -2,10 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Condition, Design, DesignError, proportional, proportional_integral};
-use crate::numerics::{Complex64, Tolerance};
-use crate::system::DescriptorSystem;
+use super::{
+    Condition, Design, DesignError, LmiChoice, decentralized, h_infinity, proportional, proportional_integral,
+};
+use crate::numerics::{Complex64, Tolerance, Watch};
 use crate::system::properties::PropertyError;
+use crate::system::{Model, TimeDomain};
 
 /// The design methods.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -16,17 +18,24 @@ pub enum Method {
     /// Proportional-integral observer (paper 004).
     #[default]
     ProportionalIntegral,
+    /// H-infinity observer for Lipschitz descriptor systems (paper 002).
+    HInfinity,
+    /// Decentralized observers of interconnected subsystems (paper 000).
+    Decentralized,
 }
 
 impl Method {
     /// All methods, in the order in which they are offered.
-    pub const ALL: [Self; 2] = [Self::ProportionalIntegral, Self::Proportional];
+    pub const ALL: [Self; 4] =
+        [Self::ProportionalIntegral, Self::Proportional, Self::HInfinity, Self::Decentralized];
 
     /// The key in documents.
     pub fn key(self) -> &'static str {
         match self {
             Self::Proportional => "proportional",
             Self::ProportionalIntegral => "proportional-integral",
+            Self::HInfinity => "h-infinity-lipschitz",
+            Self::Decentralized => "decentralized",
         }
     }
 
@@ -35,6 +44,8 @@ impl Method {
         match self {
             Self::Proportional => "Proportional",
             Self::ProportionalIntegral => "Proportional-integral",
+            Self::HInfinity => "H-infinity",
+            Self::Decentralized => "Decentralized",
         }
     }
 
@@ -47,7 +58,57 @@ impl Method {
             Self::ProportionalIntegral => {
                 "Estimates the state and the unknown input by an integral loop; constant unknown inputs leave no offset."
             }
+            Self::HInfinity => {
+                "Estimates the state of a plant with a Lipschitz nonlinearity; the effect of the disturbance d on the \
+                 error is bounded by the least gamma."
+            }
+            Self::Decentralized => {
+                "One local observer for each subsystem of a partition; the other subsystems' states are decoupled \
+                 exactly or attenuated."
+            }
         }
+    }
+
+    /// What a plant lacks, or has too much of, for this method; `None` when the method can be tried.
+    pub fn missing(self, model: &Model) -> Option<String> {
+        let system = &model.system;
+        let sentence = match self {
+            Self::Proportional | Self::ProportionalIntegral if model.lipschitz.is_some() => {
+                "observers by pole placement do not take a Lipschitz term: choose the H-infinity observer, or remove the \
+                 term to design for the linear part"
+            }
+            Self::ProportionalIntegral if system.n_unknown_inputs() == 0 => {
+                "the proportional-integral observer estimates an unknown input, but D has no columns: add one, or choose \
+                 the proportional observer"
+            }
+            Self::HInfinity if system.time == TimeDomain::Discrete => {
+                "the H-infinity observer is for differential equations: this system is in discrete time"
+            }
+            Self::Decentralized if model.lipschitz.is_some() => {
+                "decentralized observers do not take a Lipschitz term: remove it to design for the linear part"
+            }
+            Self::Decentralized if model.partition.is_empty() => {
+                "decentralized observers need subsystems: partition the system"
+            }
+            Self::Proportional | Self::ProportionalIntegral | Self::HInfinity | Self::Decentralized => {
+                return None;
+            }
+        };
+        Some(sentence.to_owned())
+    }
+
+    /// The orders that the method offers, the usual one first.
+    pub fn orders(self) -> &'static [Order] {
+        match self {
+            Self::ProportionalIntegral => &[Order::Reduced, Order::Full, Order::General],
+            Self::Proportional => &[Order::Reduced, Order::Full],
+            Self::HInfinity | Self::Decentralized => &[Order::Reduced, Order::Full, Order::Minimal],
+        }
+    }
+
+    /// Whether the gains come from linear matrix inequalities instead of pole placement.
+    pub fn uses_lmi(self) -> bool {
+        matches!(self, Self::HInfinity | Self::Decentralized)
     }
 }
 
@@ -62,11 +123,13 @@ pub enum Order {
     Reduced,
     /// General form on the augmented system, which does not need condition (8).
     General,
+    /// Minimal order: neither what the outputs nor what the algebraic equations tell is estimated again.
+    Minimal,
 }
 
 impl Order {
     /// All orders, in the order in which they are offered.
-    pub const ALL: [Self; 3] = [Self::Reduced, Self::Full, Self::General];
+    pub const ALL: [Self; 4] = [Self::Reduced, Self::Full, Self::General, Self::Minimal];
 
     /// The key in documents.
     pub fn key(self) -> &'static str {
@@ -74,13 +137,14 @@ impl Order {
             Self::Full => "full",
             Self::Reduced => "reduced",
             Self::General => "general",
+            Self::Minimal => "minimal",
         }
     }
 }
 
-/// A design by pole placement.
+/// The chosen design: method, order, poles and demands; what the method does not use waits unchanged.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PoleDesign {
+pub struct DesignChoice {
     /// Method.
     pub method: Method,
     /// Order.
@@ -91,11 +155,20 @@ pub struct PoleDesign {
     pub scale: f64,
     /// Seed of the placement's random starts, so that gains are reproducible.
     pub seed: u64,
+    /// Demands on designs by linear matrix inequalities.
+    pub lmi: LmiChoice,
 }
 
-impl Default for PoleDesign {
+impl Default for DesignChoice {
     fn default() -> Self {
-        Self { method: Method::default(), order: Order::default(), poles: Vec::new(), scale: 1.0, seed: 1 }
+        Self {
+            method: Method::default(),
+            order: Order::default(),
+            poles: Vec::new(),
+            scale: 1.0,
+            seed: 1,
+            lmi: LmiChoice::default(),
+        }
     }
 }
 
@@ -103,7 +176,7 @@ impl Default for PoleDesign {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Assessment {
     /// The choice.
-    pub choice: PoleDesign,
+    pub choice: DesignChoice,
     /// Every condition of the method, needed or not.
     pub conditions: Vec<Condition>,
     /// The design, or why there is none.
@@ -117,34 +190,55 @@ impl Assessment {
     }
 }
 
-/// Asks the conditions of a choice.
+/// Asks the conditions of a choice; none when the plant lacks what the method needs.
 ///
 /// # Errors
 /// When a decomposition fails its check.
 pub fn conditions(
-    system: &DescriptorSystem,
-    choice: &PoleDesign,
+    model: &Model,
+    choice: &DesignChoice,
     tolerance: &Tolerance,
 ) -> Result<Vec<Condition>, PropertyError> {
+    if choice.method.missing(model).is_some() {
+        return Ok(Vec::new());
+    }
     match choice.method {
-        Method::Proportional => proportional::conditions(system, choice, tolerance),
-        Method::ProportionalIntegral => proportional_integral::conditions(system, choice.order, tolerance),
+        Method::Proportional => proportional::conditions(&model.system, choice, tolerance),
+        Method::ProportionalIntegral => {
+            proportional_integral::conditions(&model.system, choice.order, tolerance)
+        }
+        Method::HInfinity => h_infinity::conditions(model, choice, tolerance),
+        Method::Decentralized => decentralized::conditions(model, choice, tolerance),
     }
 }
 
 /// Asks the conditions of a choice and designs when they hold.
 ///
+/// `watch` hears of the progress of a design by linear matrix inequalities and can stop it.
+///
 /// # Errors
 /// When a decomposition fails its check while the conditions are asked; failures of the design are in the outcome.
 pub fn assess(
-    system: &DescriptorSystem,
-    choice: &PoleDesign,
+    model: &Model,
+    choice: &DesignChoice,
     tolerance: &Tolerance,
+    watch: &Watch,
 ) -> Result<Assessment, PropertyError> {
-    let conditions = conditions(system, choice, tolerance)?;
+    let conditions = conditions(model, choice, tolerance)?;
+    if let Some(why) = choice.method.missing(model) {
+        return Ok(Assessment {
+            choice: choice.clone(),
+            conditions,
+            outcome: Err(DesignError::Unsuitable(why)),
+        });
+    }
     let outcome = match choice.method {
-        Method::Proportional => proportional::design(system, choice, &conditions, tolerance),
-        Method::ProportionalIntegral => proportional_integral::design(system, choice, &conditions, tolerance),
+        Method::Proportional => proportional::design(&model.system, choice, &conditions, tolerance),
+        Method::ProportionalIntegral => {
+            proportional_integral::design(&model.system, choice, &conditions, tolerance)
+        }
+        Method::HInfinity => h_infinity::design(model, choice, &conditions, tolerance, watch),
+        Method::Decentralized => decentralized::design(model, choice, &conditions, tolerance, watch),
     };
     Ok(Assessment { choice: choice.clone(), conditions, outcome })
 }

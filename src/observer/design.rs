@@ -4,8 +4,9 @@
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
-use super::{LinearObserver, Verification};
-use crate::numerics::{Complex64, NumericsError, Placement, PlacementError};
+use super::{Injection, LinearObserver, Synthesis, Verification};
+use crate::lmi::Infeasible;
+use crate::numerics::{Complex64, NumericsError, PlacementError};
 
 /// A matrix under the name that the paper gives it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -47,10 +48,12 @@ pub struct Design {
     pub matrices: Vec<NamedMatrix>,
     /// The runnable form.
     pub observer: LinearObserver,
-    /// What it claims of itself.
-    pub claim: Claim,
-    /// The placement that gave the gain.
-    pub placement: Placement,
+    /// How the plant's nonlinearity enters it, where there is one.
+    pub injection: Option<Injection>,
+    /// What it claims of itself; a composite of local observers claims nothing beyond what each of them does.
+    pub claim: Option<Claim>,
+    /// How the gains were found.
+    pub synthesis: Synthesis,
     /// The re-check, made by other arithmetic.
     pub verification: Verification,
     /// What a user should know: unused poles, ill-conditioned gains, split multiple poles.
@@ -91,6 +94,15 @@ pub enum DesignError {
     /// A pole without its conjugate, or one that is not finite.
     #[error("{0}")]
     Poles(String),
+    /// The matrix inequalities have no solution.
+    #[error("{0}")]
+    Infeasible(Infeasible),
+    /// The computation was cancelled.
+    #[error("the design was cancelled")]
+    Cancelled,
+    /// The solver gave up.
+    #[error("the matrix inequalities could not be decided: {0}")]
+    GaveUp(String),
     /// A computation failed.
     #[error("{0}")]
     Numerics(String),

@@ -2,16 +2,22 @@
 
 mod choice;
 mod condition;
+pub mod decentralized;
 mod design;
+pub mod h_infinity;
+mod lmi_choice;
 pub mod proportional;
 pub mod proportional_integral;
 mod realization;
+mod synthesis;
 mod verify;
 
-pub use choice::{Assessment, Method, Order, PoleDesign, assess, conditions};
+pub use choice::{Assessment, DesignChoice, Method, Order, assess, conditions};
 pub use condition::{Condition, Evidence, Formula, FormulaPart, PointEvidence, Verdict, Witness};
 pub use design::{Claim, Design, DesignError, NamedMatrix, chosen_poles, scaled_pole};
-pub use realization::LinearObserver;
+pub use lmi_choice::{GivenObserver, LmiChoice};
+pub use realization::{Injection, LinearObserver};
+pub use synthesis::{Certificate, LmiResult, Synthesis};
 pub use verify::{Check, Response, Verification, unknown_input_response, verify};
 
 use crate::numerics::Complex64;

@@ -11,7 +11,7 @@
 use nalgebra::DMatrix;
 
 use super::proportional_integral::{compressed, finish, ordinary_conditions};
-use super::{Condition, Design, DesignError, PoleDesign};
+use super::{Condition, Design, DesignChoice, DesignError};
 use crate::numerics::Tolerance;
 use crate::system::DescriptorSystem;
 use crate::system::properties::PropertyError;
@@ -31,7 +31,7 @@ pub fn without_unknown_inputs(system: &DescriptorSystem) -> DescriptorSystem {
 /// When a decomposition fails its check.
 pub fn conditions(
     system: &DescriptorSystem,
-    choice: &PoleDesign,
+    choice: &DesignChoice,
     tolerance: &Tolerance,
 ) -> Result<Vec<Condition>, PropertyError> {
     ordinary_conditions(&without_unknown_inputs(system), choice.order, tolerance)
@@ -46,7 +46,7 @@ pub fn conditions(
 /// Darouach and Boutayeb 1995; Koenig and Mammar 2002, (5) without the integral part.
 pub fn design(
     system: &DescriptorSystem,
-    choice: &PoleDesign,
+    choice: &DesignChoice,
     conditions: &[Condition],
     tolerance: &Tolerance,
 ) -> Result<Design, DesignError> {

@@ -50,3 +50,20 @@ impl LinearObserver {
         self.Q.nrows()
     }
 }
+
+/// How a plant's nonlinearity `G f(x)` enters an observer, at the estimate instead of the state.
+///
+/// ```text
+///    z'  = N z + L y + H u + state * f(x_hat)
+/// x_hat  = P z + V y + W u + estimate * f(x_hat)          an implicit equation when `F_L estimate` is not zero
+/// ```
+///
+/// # Shapes
+/// `state`: o x nf; `estimate`: n x nf.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Injection {
+    /// Into the observer's state: `T G`.
+    pub state: DMatrix<f64>,
+    /// Into the estimate: `-Q Phi G`.
+    pub estimate: DMatrix<f64>,
+}

@@ -1,9 +1,9 @@
 //! From a recipe to a figure: designs, simulates and samples; nothing is stored.
 
-use crate::numerics::{Complex64, Tolerance};
-use crate::observer::{Design, LinearObserver, PoleDesign, assess, unknown_input_response};
+use crate::numerics::{Complex64, Tolerance, Watch};
+use crate::observer::{Design, DesignChoice, LinearObserver, assess, unknown_input_response};
 use crate::simulation::{Scenario, Trajectory};
-use crate::system::{DescriptorSystem, TimeDomain};
+use crate::system::{DescriptorSystem, Model, TimeDomain};
 
 use super::figure::{Axis, FigureSpec, Panel, Role, Series};
 use super::recipe::{FigureRecipe, PanelRecipe, Quantity, RunRecipe, ScenarioPatch, SeriesRecipe, Transfer};
@@ -11,10 +11,10 @@ use super::recipe::{FigureRecipe, PanelRecipe, Quantity, RunRecipe, ScenarioPatc
 /// A problem as figures see it.
 #[derive(Clone, Copy, Debug)]
 pub struct Problem<'a> {
-    /// The system.
-    pub system: &'a DescriptorSystem,
+    /// The plant.
+    pub model: &'a Model,
     /// The chosen design, which runs may change.
-    pub design: &'a PoleDesign,
+    pub design: &'a DesignChoice,
     /// The scenario, which runs may change.
     pub scenario: &'a Scenario,
     /// Thresholds.
@@ -32,15 +32,24 @@ struct Run {
 ///
 /// # Errors
 /// A sentence: which run has no design or no trajectory, and why.
-pub fn compute_figure(problem: &Problem<'_>, recipe: &FigureRecipe) -> Result<FigureSpec, String> {
+pub fn compute_figure(
+    problem: &Problem<'_>,
+    recipe: &FigureRecipe,
+    watch: &Watch,
+) -> Result<FigureSpec, String> {
     let timed = recipe.panels.iter().any(|panel| matches!(panel, PanelRecipe::Time { .. }));
-    let runs = recipe.runs.iter().map(|run| execute(problem, run, timed)).collect::<Result<Vec<_>, _>>()?;
+    let count = recipe.runs.len().max(1) as f32;
+    let part = |k: usize| watch.part(k as f32 / count, (k + 1) as f32 / count);
+    let runs = recipe.runs.iter().enumerate().map(|(k, run)| execute(problem, run, timed, &part(k)));
+    let runs = runs.collect::<Result<Vec<_>, _>>()?;
     let mut notes: Vec<String> = Vec::new();
     for run in &runs {
         if !run.design.verification.verified() {
             notes.push(format!("{}: the design is not verified", run.name));
         }
-        notes.extend(run.trajectory.iter().filter_map(|t| t.note.clone()));
+        if let Some(trajectory) = &run.trajectory {
+            notes.extend(trajectory.note.iter().chain(&trajectory.remarks).cloned());
+        }
     }
     let mut panels = Vec::new();
     for panel in &recipe.panels {
@@ -50,8 +59,8 @@ pub fn compute_figure(problem: &Problem<'_>, recipe: &FigureRecipe) -> Result<Fi
             }
             PanelRecipe::Bode { title, transfer, from, to, range } => {
                 let response = |run: &Run, omega| {
-                    let s = frequency(problem.system.time, omega);
-                    transfer_at(problem.system, &run.design.observer, *transfer, (*from, *to), s)
+                    let s = frequency(problem.model.system.time, omega);
+                    transfer_at(&problem.model.system, &run.design.observer, *transfer, (*from, *to), s)
                 };
                 panels.extend(bode_panels(title, *range, &runs, response));
             }
@@ -68,15 +77,15 @@ pub fn compute_figure(problem: &Problem<'_>, recipe: &FigureRecipe) -> Result<Fi
     })
 }
 
-fn execute(problem: &Problem<'_>, run: &RunRecipe, timed: bool) -> Result<Run, String> {
+fn execute(problem: &Problem<'_>, run: &RunRecipe, timed: bool, watch: &Watch) -> Result<Run, String> {
     let name = if run.name.is_empty() { "estimate".to_owned() } else { run.name.clone() };
     let choice = run.design.applied(problem.design);
-    let assessed =
-        assess(problem.system, &choice, problem.tolerance).map_err(|error| format!("{name}: {error}"))?;
+    let assessed = assess(problem.model, &choice, problem.tolerance, watch)
+        .map_err(|error| format!("{name}: {error}"))?;
     let design = assessed.outcome.map_err(|error| format!("{name}: {error}"))?;
     let trajectory = if timed {
         let scenario = patched(problem.scenario, &run.scenario);
-        let found = scenario.run(problem.system, &[&design.observer], problem.tolerance);
+        let found = scenario.run(problem.model, &[(&design).into()], problem.tolerance, watch);
         Some(found.map_err(|error| format!("{name}: {error}"))?)
     } else {
         None
@@ -133,7 +142,7 @@ fn time_panel(
             points,
         });
     }
-    let label = time_label(problem.system.time);
+    let label = time_label(problem.model.system.time);
     Panel {
         title: title.to_owned(),
         x: Axis { label, ..Axis::default() },

@@ -1,7 +1,7 @@
 //! Figures as data: which designs, which scenario, what is drawn.
 
 use crate::numerics::Complex64;
-use crate::observer::{Method, Order, PoleDesign};
+use crate::observer::{DesignChoice, LmiChoice, Method, Order};
 use crate::system::Signal;
 
 /// A figure that can be computed from a problem.
@@ -45,17 +45,20 @@ pub struct DesignPatch {
     pub poles: Option<Vec<Complex64>>,
     /// Bandwidth factor, relative to the problem's own.
     pub scale: Option<f64>,
+    /// Demands on a design by linear matrix inequalities, all of them at once.
+    pub lmi: Option<LmiChoice>,
 }
 
 impl DesignPatch {
     /// The design with these changes.
-    pub fn applied(&self, design: &PoleDesign) -> PoleDesign {
-        PoleDesign {
+    pub fn applied(&self, design: &DesignChoice) -> DesignChoice {
+        DesignChoice {
             method: self.method.unwrap_or(design.method),
             order: self.order.unwrap_or(design.order),
             poles: self.poles.clone().unwrap_or_else(|| design.poles.clone()),
             scale: self.scale.map_or(design.scale, |scale| scale * design.scale),
             seed: design.seed,
+            lmi: self.lmi.clone().unwrap_or_else(|| design.lmi.clone()),
         }
     }
 }

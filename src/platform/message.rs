@@ -43,6 +43,7 @@ pub fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, MessageError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::Watch;
     use crate::paper::EXAMPLES;
     use crate::session::{JobRequest, Task, perform};
 
@@ -53,7 +54,7 @@ mod tests {
                 let request = JobRequest { id: 7, revision: 3, document: example.text.to_owned(), task };
                 let back: JobRequest = decode(&encode(&request).unwrap()).unwrap();
                 assert_eq!(back, request, "{}: the request", example.key);
-                let reply = perform(&request, &mut |_, _| true).unwrap();
+                let reply = perform(&request, &Watch::none()).unwrap();
                 let sent = FromWorker::Reply { reply, elapsed_ms: Some(1.5) };
                 let bytes = encode(&sent).unwrap();
                 let back: FromWorker = decode(&bytes).unwrap();

@@ -22,7 +22,7 @@ impl Runner for SynchronousRunner {
 
     fn poll(&mut self) -> Option<JobReply> {
         let request = self.request.take()?;
-        let (reply, elapsed_ms) = perform_timed(&request, &mut |_| true, &|| true)?;
+        let (reply, elapsed_ms) = perform_timed(&request, |_| true, || true)?;
         self.elapsed_ms = Some(elapsed_ms);
         Some(reply)
     }

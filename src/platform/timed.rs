@@ -1,7 +1,10 @@
 //! A computation with its duration and with progress that does not flood the screen.
 
+use std::sync::{Mutex, PoisonError};
+
 use web_time::{Duration, Instant};
 
+use crate::numerics::Watch;
 use crate::session::{JobReply, JobRequest, Outcome, perform};
 
 /// Time between two reports: each of them draws the screen anew.
@@ -12,24 +15,34 @@ const BETWEEN_REPORTS: Duration = Duration::from_millis(50);
 /// `report` hears of progress at most every 50 ms and answers whether to go on; `go_on` is asked at every step.
 pub(super) fn perform_timed(
     request: &JobRequest,
-    report: &mut dyn FnMut(JobReply) -> bool,
-    go_on: &dyn Fn() -> bool,
+    report: impl Fn(JobReply) -> bool + Send + Sync + 'static,
+    go_on: impl Fn() -> bool + Send + Sync + 'static,
 ) -> Option<(JobReply, f64)> {
     let start = now();
-    let mut reported = start;
-    let reply = perform(request, &mut |fraction, what| {
+    let reported = Mutex::new(start);
+    let (id, revision) = (request.id, request.revision);
+    let watch = Watch::new(move |fraction, what| {
         if !go_on() {
             return false;
         }
         let at = now();
-        if at.duration_since(reported) < BETWEEN_REPORTS {
+        let mut reported = reported.lock().unwrap_or_else(PoisonError::into_inner);
+        if at.duration_since(*reported) < BETWEEN_REPORTS {
             return true;
         }
-        reported = at;
+        *reported = at;
         let outcome = Outcome::Progress { fraction, what: what.to_owned() };
-        report(JobReply { id: request.id, revision: request.revision, outcome })
-    })?;
+        report(JobReply { id, revision, outcome })
+    });
+    let reply = perform(request, &here(watch))?;
     Some((reply, start.elapsed().as_secs_f64() * 1e3))
+}
+
+/// A watch with the processors of this machine; a worker in a browser has one.
+fn here(watch: Watch) -> Watch {
+    #[cfg(not(target_arch = "wasm32"))]
+    let watch = watch.on(super::native::Threads);
+    watch
 }
 
 /// The clock, which browsers have too.

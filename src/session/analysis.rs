@@ -2,16 +2,15 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::job::Progress;
-use crate::document::{Document, PlantData};
-use crate::numerics::{Complex64, Tolerance};
-use crate::observer::{Assessment, Condition, Method, PoleDesign, Verdict, assess, conditions};
+use crate::document::Document;
+use crate::numerics::{Complex64, Tolerance, Watch};
+use crate::observer::{Assessment, Condition, DesignChoice, Method, Verdict, assess, conditions};
 use crate::paper::{FigureSpec, standard};
 use crate::system::properties::{
     finite_eigenvalues, impulse_observability, index, r_detectability, r_observability, rank_e, rank_e_c,
     regularity,
 };
-use crate::system::{DescriptorSystem, TimeDomain};
+use crate::system::{DescriptorSystem, Model, TimeDomain};
 
 /// What follows from a document.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -84,33 +83,35 @@ pub struct Simulation {
     pub notes: Vec<String>,
 }
 
-/// Computes everything that follows from a document; `None` when `progress` said stop.
-pub fn analyse(document: &Document, progress: Progress<'_>) -> Option<Analysis> {
+/// Computes everything that follows from a document; `None` when `watch` said stop.
+pub fn analyse(document: &Document, watch: &Watch) -> Option<Analysis> {
     let tolerance = &document.tolerance;
-    let system = match document.system() {
-        Ok(system) => system,
+    let model = match document.model() {
+        Ok(model) => model,
         Err(error) => return Some(Analysis::failed(&error.to_string())),
     };
-    if !progress(0.1, "properties") {
+    let system = &model.system;
+    if !watch.go_on(0.0, "properties") {
         return None;
     }
-    let properties = properties(&system, tolerance);
+    let properties = properties(system, tolerance);
     let plant_eigenvalues =
-        finite_eigenvalues(&system, tolerance).map(|found| found.values).unwrap_or_default();
-    if !progress(0.3, "conditions") {
+        finite_eigenvalues(system, tolerance).map(|found| found.values).unwrap_or_default();
+    if !watch.go_on(0.1, "conditions") {
         return None;
     }
-    let assessment = assessment(document, &system);
+    let assessment =
+        assess(&model, &document.design, tolerance, &watch.part(0.1, 0.8)).map_err(|error| error.to_string());
     // the conditions of the chosen method are known already
     let known = assessment.as_ref().ok().map(|assessment| assessment.conditions.as_slice());
     let known = |method: Method| known.filter(|_| method == document.design.method);
-    let methods = Method::ALL.iter().map(|m| light(&system, document, *m, known(*m))).collect();
-    if !progress(0.6, "simulation") {
+    let methods = Method::ALL.iter().map(|m| light(&model, document, *m, known(*m))).collect();
+    if !watch.go_on(0.8, "simulation") {
         return None;
     }
-    let simulation = simulation(document, &system, assessment.as_ref());
+    let simulation = simulation(document, &model, assessment.as_ref(), &watch.part(0.8, 1.0));
     let design = assessment.as_ref().ok().and_then(|a| a.outcome.as_ref().ok());
-    let bode = design.and_then(|design| standard::bode(&system, design));
+    let bode = design.and_then(|design| standard::bode(system, design));
     Some(Analysis { properties, plant_eigenvalues, methods, assessment, simulation, bode })
 }
 
@@ -132,39 +133,23 @@ impl Analysis {
     }
 }
 
-fn lipschitz(document: &Document) -> bool {
-    matches!(&document.plant, PlantData::Descriptor(data) if data.lipschitz.is_some())
-}
-
-/// Why no method of this program can use a document, if so.
-fn unsuitable(document: &Document) -> Option<&'static str> {
-    lipschitz(document).then_some(
-        "the system has a Lipschitz term, which observers by pole placement do not take: remove it from the document to \
-         design for the linear part",
-    )
-}
-
-fn assessment(document: &Document, system: &DescriptorSystem) -> Result<Assessment, String> {
-    if let Some(why) = unsuitable(document) {
-        return Err(why.to_owned());
-    }
-    assess(system, &document.design, &document.tolerance).map_err(|error| error.to_string())
-}
-
 fn simulation(
     document: &Document,
-    system: &DescriptorSystem,
+    model: &Model,
     assessment: Result<&Assessment, &String>,
+    watch: &Watch,
 ) -> Result<Simulation, String> {
+    let system = &model.system;
     let assessment = assessment.map_err(Clone::clone)?;
     let design =
         assessment.outcome.as_ref().map_err(|error| format!("there is no observer to simulate: {error}"))?;
     let scenario = document.scenario(system);
-    let trajectory =
-        scenario.run(system, &[&design.observer], &document.tolerance).map_err(|error| error.to_string())?;
+    let trajectory = scenario
+        .run(model, &[design.into()], &document.tolerance, watch)
+        .map_err(|error| error.to_string())?;
     let half = trajectory.t.last().copied().unwrap_or(0.0) / 2.0;
     let observer = &trajectory.observers[0];
-    let mut notes: Vec<String> = trajectory.note.iter().cloned().collect();
+    let mut notes: Vec<String> = trajectory.note.iter().chain(&trajectory.remarks).cloned().collect();
     if trajectory.initial_state.change > 1e-9 {
         let values: Vec<String> =
             trajectory.initial_state.consistent.iter().map(|x| format!("{x:.4}")).collect();
@@ -176,32 +161,24 @@ fn simulation(
     Ok(Simulation {
         rms: trajectory.rms(&observer.e, half),
         rms_unknown: trajectory.rms(&observer.e_d, half),
-        states: standard::states(&trajectory, system.time),
-        errors: standard::errors(&trajectory, system.time),
+        states: standard::states(&trajectory, system.time, &model.partition),
+        errors: standard::errors(&trajectory, system.time, &model.partition),
         unknown_input: standard::unknown_inputs(&trajectory, system.time),
         notes,
     })
 }
 
-fn light(
-    system: &DescriptorSystem,
-    document: &Document,
-    method: Method,
-    known: Option<&[Condition]>,
-) -> MethodLight {
+fn light(model: &Model, document: &Document, method: Method, known: Option<&[Condition]>) -> MethodLight {
     let light = |light, why: &str| MethodLight { method, light, why: why.to_owned() };
-    if let Some(why) = unsuitable(document) {
-        return light(Light::Missing, why);
-    }
-    if method == Method::ProportionalIntegral && system.n_unknown_inputs() == 0 {
-        return light(Light::Missing, "needs an unknown input: D has no columns");
+    if let Some(why) = method.missing(model) {
+        return light(Light::Missing, &why);
     }
     let asked;
     let found = if let Some(known) = known {
         known
     } else {
-        let choice = PoleDesign { method, ..document.design.clone() };
-        match conditions(system, &choice, &document.tolerance) {
+        let choice = DesignChoice { method, ..document.design.clone() };
+        match conditions(model, &choice, &document.tolerance) {
             Ok(found) => {
                 asked = found;
                 asked.as_slice()

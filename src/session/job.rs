@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::analysis::{Analysis, analyse};
 use crate::document::read_document;
+use crate::numerics::Watch;
 use crate::paper::{FigureSpec, Problem, compute_figure};
 
 /// A computation that is asked for.
@@ -65,38 +66,35 @@ pub enum Outcome {
     Failed(String),
 }
 
-/// Receives progress; returns whether to go on.
-pub type Progress<'a> = &'a mut dyn FnMut(f32, &str) -> bool;
-
-/// Performs a request to its end; `None` when `progress` said stop.
-pub fn perform(request: &JobRequest, progress: Progress<'_>) -> Option<JobReply> {
+/// Performs a request to its end; `None` when `watch` said stop.
+pub fn perform(request: &JobRequest, watch: &Watch) -> Option<JobReply> {
     let reply = |outcome| JobReply { id: request.id, revision: request.revision, outcome };
     let document = match read_document(&request.document) {
         Ok(document) => document,
         Err(error) => return Some(reply(Outcome::Failed(error.to_string()))),
     };
     let outcome = match &request.task {
-        Task::Analyse => Outcome::Analysis(Box::new(analyse(&document, progress)?)),
+        Task::Analyse => Outcome::Analysis(Box::new(analyse(&document, watch)?)),
         Task::Figure { id } => {
-            if !progress(0.1, "designing and simulating the figure") {
+            if !watch.go_on(0.0, "designing and simulating the figure") {
                 return None;
             }
-            Outcome::Figure { id: id.clone(), figure: figure(&document, id) }
+            Outcome::Figure { id: id.clone(), figure: figure(&document, id, watch) }
         }
     };
     Some(reply(outcome))
 }
 
-fn figure(document: &crate::document::Document, id: &str) -> Result<FigureSpec, String> {
+fn figure(document: &crate::document::Document, id: &str, watch: &Watch) -> Result<FigureSpec, String> {
     let recipe = document.figures.iter().find(|recipe| recipe.id == id);
     let recipe = recipe.ok_or_else(|| format!("the document has no figure \"{id}\""))?;
-    let system = document.system().map_err(|error| error.to_string())?;
-    let scenario = document.scenario(&system);
+    let model = document.model().map_err(|error| error.to_string())?;
+    let scenario = document.scenario(&model.system);
     let problem = Problem {
-        system: &system,
+        model: &model,
         design: &document.design,
         scenario: &scenario,
         tolerance: &document.tolerance,
     };
-    compute_figure(&problem, recipe)
+    compute_figure(&problem, recipe, watch)
 }

@@ -115,6 +115,7 @@ fn needed(document: &Document) -> Option<(usize, TimeDomain)> {
         (Method::Proportional, Order::Full | Order::General) => n,
         (Method::ProportionalIntegral, Order::Reduced) => rank.rank + q,
         (Method::ProportionalIntegral, Order::Full | Order::General) => n + q,
+        (_, Order::Minimal) | (Method::HInfinity | Method::Decentralized, _) => return None,
     };
     Some((needed, system.time))
 }

@@ -4,7 +4,9 @@ use serde_json::{Map, Value, json};
 
 use super::{complexes, matrix, number};
 use crate::numerics::{Placement, PlacementMethod};
-use crate::observer::{Assessment, Check, Design, DesignError, LinearObserver, Verification};
+use crate::observer::{
+    Assessment, Check, Design, DesignError, Injection, LinearObserver, LmiResult, Synthesis, Verification,
+};
 
 /// The outcome of a choice: `verified`, `not verified`, `does not exist` or `bad input`.
 pub(super) fn design(assessment: &Assessment) -> Value {
@@ -39,6 +41,9 @@ fn missing(map: &mut Map<String, Value>, error: &DesignError) {
         DesignError::Unsuitable(_)
         | DesignError::TooFewPoles { .. }
         | DesignError::Poles(_)
+        | DesignError::Infeasible(_)
+        | DesignError::Cancelled
+        | DesignError::GaveUp(_)
         | DesignError::Numerics(_) => None,
     };
     map.insert("failed_condition".to_owned(), json!(condition));
@@ -57,9 +62,15 @@ fn found(map: &mut Map<String, Value>, design: &Design) {
     put("meanings", Value::Object(meanings));
     put("observer", observer(&design.observer));
     put("spectrum", complexes(&design.verification.spectrum));
-    put("requested", complexes(&design.placement.requested));
-    put("fixed_modes", complexes(&design.placement.fixed_modes));
-    put("placement", placement(&design.placement));
+    put("fixed_modes", complexes(&design.synthesis.fixed_modes()));
+    match &design.synthesis {
+        Synthesis::Poles(found) => {
+            put("requested", complexes(&found.requested));
+            put("placement", placement(found));
+        }
+        Synthesis::Lmi(results) => put("lmi", results.iter().map(lmi_result).collect()),
+    }
+    put("injection", design.injection.as_ref().map_or(Value::Null, injection));
     put("verification", verification(&design.verification));
     put("notes", json!(design.notes));
 }
@@ -69,6 +80,39 @@ fn observer(observer: &LinearObserver) -> Value {
     let LinearObserver { N, L, H, P, V, W, Q, R, S } = observer;
     let all = [("N", N), ("L", L), ("H", H), ("P", P), ("V", V), ("W", W), ("Q", Q), ("R", R), ("S", S)];
     Value::Object(all.into_iter().map(|(name, value)| (name.to_owned(), matrix(value))).collect())
+}
+
+/// `+ state f(x_hat)` in the first, `+ estimate f(x_hat)` in the second equation of the observer.
+fn injection(injection: &Injection) -> Value {
+    json!({ "state": matrix(&injection.state), "estimate": matrix(&injection.estimate) })
+}
+
+fn lmi_result(result: &LmiResult) -> Value {
+    let bounds: Map<String, Value> =
+        result.bounds.iter().map(|(name, value)| (name.clone(), number(*value))).collect();
+    json!({
+        "name": result.name,
+        "gamma": result.gamma.map(number),
+        "gamma_best": result.gamma_best.map(number),
+        "certificate": {
+            "proved": result.certificate.proved,
+            "margin": number(result.certificate.margin),
+            "statement": result.certificate.statement,
+            "note": result.certificate.note,
+        },
+        "h_infinity_norm": result.h_infinity.map(|found| json!({
+            "norm": number(found.norm),
+            "frequency": number(found.frequency),
+            "lower": number(found.lower),
+            "upper": number(found.upper),
+        })),
+        "lower_bounds": bounds,
+        "contraction": result.contraction.map(number),
+        "gain": number(result.gain),
+        "fixed_modes": complexes(&result.fixed_modes),
+        "fastest_decay": result.fastest_decay.map(number),
+        "iterations": result.iterations,
+    })
 }
 
 fn placement(placement: &Placement) -> Value {

@@ -14,42 +14,25 @@ use nalgebra::DMatrix;
 use serde_json::{Map, Value, json};
 
 use super::entry::number as finite_number;
-use super::model::{Document, PlantData};
+use super::model::Document;
 use super::pretty::pretty;
 use crate::numerics::Complex64;
-use crate::observer::{Assessment, Condition, Method};
+use crate::observer::{Assessment, Condition};
 use crate::simulation::Trajectory;
-use crate::system::{DescriptorSystem, TimeDomain};
+use crate::system::{DescriptorSystem, Model, TimeDomain};
 
 pub use figures::{FigureFiles, WrittenFigure};
 
 /// Version of the reports.
 pub const REPORT_VERSION: u64 = 1;
 
-/// Why no method by pole placement can use a document, if so, as a sentence.
-pub fn unsuitable(document: &Document, system: &DescriptorSystem) -> Option<String> {
-    let lipschitz = matches!(&document.plant, PlantData::Descriptor(data) if data.lipschitz.is_some());
-    if lipschitz {
-        return Some(
-            "the system has a Lipschitz term, which observers by pole placement do not take: remove it from the \
-             document to design for the linear part"
-                .to_owned(),
-        );
-    }
-    (document.design.method == Method::ProportionalIntegral && system.n_unknown_inputs() == 0).then(|| {
-        "the proportional-integral observer estimates an unknown input, but D has no columns: add one, or choose the \
-         proportional observer"
-            .to_owned()
-    })
-}
-
 /// Report of `descry check`: properties of the system and conditions of the chosen method.
-pub fn check_report(document: &Document, system: &DescriptorSystem, conditions: &[Condition]) -> String {
-    let mut map = head("check", document, system);
-    map.insert("properties".to_owned(), properties::properties(system, &document.tolerance));
+pub fn check_report(document: &Document, model: &Model, conditions: &[Condition]) -> String {
+    let mut map = head("check", document, &model.system);
+    map.insert("properties".to_owned(), properties::properties(&model.system, &document.tolerance));
     put_conditions(&mut map, conditions);
     let holds = conditions.iter().all(|condition| !condition.needed || condition.verdict.holds());
-    let unsuitable = unsuitable(document, system);
+    let unsuitable = document.design.method.missing(model);
     let verdict = match (&unsuitable, holds) {
         (Some(_), _) => "the method cannot be used",
         (None, true) => "the needed conditions hold",

@@ -33,7 +33,10 @@ pub use general::{Augmented, augment};
 pub use reduced_order::{Reduction, reduce};
 
 use super::design::chosen_poles;
-use super::{Claim, Condition, Design, DesignError, LinearObserver, NamedMatrix, Order, PoleDesign, verify};
+use super::{
+    Claim, Condition, Design, DesignChoice, DesignError, LinearObserver, NamedMatrix, Order, Synthesis,
+    verify,
+};
 use crate::numerics::Block::{Of, Zero};
 use crate::numerics::{
     Complex64, NumericsError, Placement, PlacementOptions, Tolerance, block_matrix, observable_quotient,
@@ -65,7 +68,7 @@ fn augmented(
 
 /// What a person asks of the spectrum.
 struct PoleRequest<'a> {
-    choice: &'a PoleDesign,
+    choice: &'a DesignChoice,
     discrete: bool,
     tolerance: &'a Tolerance,
 }
@@ -118,7 +121,7 @@ fn named(m: realize::Matrices) -> Vec<NamedMatrix> {
 /// Koenig and Mammar 2002, Algorithms 1 and 2; order `general` is the extension described at [`augment`].
 pub fn design(
     system: &DescriptorSystem,
-    choice: &PoleDesign,
+    choice: &DesignChoice,
     conditions: &[Condition],
     tolerance: &Tolerance,
 ) -> Result<Design, DesignError> {
@@ -131,7 +134,7 @@ pub fn design(
     }
     let equivalent = match choice.order {
         Order::General => compressed(system, tolerance)?,
-        Order::Full | Order::Reduced => restricted(system, tolerance)?,
+        Order::Full | Order::Reduced | Order::Minimal => restricted(system, tolerance)?,
     };
     finish("proportional-integral observer", system, &equivalent, choice, conditions, tolerance)
 }
@@ -149,7 +152,7 @@ pub(super) fn finish(
     method: &str,
     system: &DescriptorSystem,
     equivalent: &Equivalent,
-    choice: &PoleDesign,
+    choice: &DesignChoice,
     conditions: &[Condition],
     tolerance: &Tolerance,
 ) -> Result<Design, DesignError> {
@@ -166,6 +169,11 @@ pub(super) fn finish(
         Order::Full => ("full order", full_order::design(equivalent, hold, &request)?),
         Order::Reduced => ("reduced order", reduced_order::design(equivalent, hold, &request)?),
         Order::General => ("general form", general::design(equivalent, hold, &request)?),
+        Order::Minimal => {
+            return Err(DesignError::Unsuitable(format!(
+                "the {method} has no minimal order: choose reduced or full"
+            )));
+        }
     };
     let Realized { matrices, observer, claim, placement } = realized;
     let expected: Vec<Complex64> =
@@ -173,11 +181,21 @@ pub(super) fn finish(
     let verification = verify(system, &observer, &claim, &expected, tolerance)?;
     let notes = notes(choice, &placement, system.time);
     let title = format!("{method}, {order} ({})", observer.order());
-    Ok(Design { title, matrices, observer, claim, placement, verification, notes })
+    let synthesis = Synthesis::Poles(Box::new(placement));
+    Ok(Design {
+        title,
+        matrices,
+        observer,
+        injection: None,
+        claim: Some(claim),
+        synthesis,
+        verification,
+        notes,
+    })
 }
 
 /// What a user should know of a placement.
-fn notes(choice: &PoleDesign, placement: &Placement, time: TimeDomain) -> Vec<String> {
+fn notes(choice: &DesignChoice, placement: &Placement, time: TimeDomain) -> Vec<String> {
     let mut notes: Vec<String> = placement.warnings.iter().map(ToString::to_string).collect();
     let (given, used) = (choice.poles.len(), placement.requested.len());
     if given > used {

@@ -46,8 +46,8 @@ impl Runner for ThreadRunner {
         let thread = thread::Builder::new().name("computation".to_owned());
         let spawned = thread.spawn(move || {
             // the thread also wakes the screen when it unwinds: its closed channel is the message
-            let woken = Wake(wake);
-            work(&request, sender, &stopped, &woken);
+            let woken = Arc::new(Wake(wake));
+            work(&request, sender, stopped, &woken);
         });
         if let Err(error) = spawned {
             let outcome = Outcome::Failed(format!("no thread could be started: {error}"));
@@ -101,18 +101,20 @@ impl Drop for Wake {
     }
 }
 
-fn work(request: &JobRequest, sender: Sender<Sent>, stop: &AtomicBool, wake: &Wake) {
-    let mut report = |reply| {
-        let heard = sender.send(Sent { reply, elapsed_ms: None }).is_ok();
-        (wake.0)();
-        heard
+fn work(request: &JobRequest, sender: Sender<Sent>, stop: Arc<AtomicBool>, wake: &Arc<Wake>) {
+    let report = {
+        let (sender, wake) = (sender.clone(), Arc::clone(wake));
+        move |reply| {
+            let heard = sender.send(Sent { reply, elapsed_ms: None }).is_ok();
+            (wake.0)();
+            heard
+        }
     };
-    let done = perform_timed(request, &mut report, &|| !stop.load(Ordering::Relaxed));
+    let done = perform_timed(request, report, move || !stop.load(Ordering::Relaxed));
     if let Some((reply, elapsed_ms)) = done {
         // nobody listens to an abandoned computation
         drop(sender.send(Sent { reply, elapsed_ms: Some(elapsed_ms) }));
     }
-    drop(sender);
 }
 
 #[cfg(test)]

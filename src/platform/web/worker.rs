@@ -24,11 +24,11 @@ pub fn worker_run(bytes: &[u8]) {
         Err(error) => return post(&FromWorker::Crashed(error.to_string())),
     };
     // a page stops its worker from outside: here nothing has to be asked
-    let mut report = |reply| {
+    let report = |reply| {
         post(&FromWorker::Reply { reply, elapsed_ms: None });
         true
     };
-    if let Some((reply, elapsed_ms)) = perform_timed(&request, &mut report, &|| true) {
+    if let Some((reply, elapsed_ms)) = perform_timed(&request, report, || true) {
         post(&FromWorker::Reply { reply, elapsed_ms: Some(elapsed_ms) });
     }
 }
