@@ -2,6 +2,7 @@
 
 mod choice;
 mod condition;
+pub mod decentralized;
 mod design;
 pub mod h_infinity;
 mod lmi_choice;
