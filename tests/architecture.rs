@@ -25,9 +25,8 @@ const LAYERS: [&str; 11] = [
 const ALSO_FORBIDDEN: [(&str, &str); 2] = [("numerics", "expression"), ("headless", "session")];
 
 /// A foreign crate and the files that may name it.
-const OWNERS: [(&str, &[&str]); 10] = [
+const OWNERS: [(&str, &[&str]); 9] = [
     ("faer", &["src/numerics/svd.rs", "src/numerics/eigen.rs"]),
-    ("diffsol", &["src/numerics/integrate/stiff.rs"]),
     ("serde_json", &["src/document/", "src/headless/", "src/gui/state_report.rs"]),
     ("postcard", &["src/platform/message.rs"]),
     ("miniz_oxide", &["src/document/link.rs"]),

@@ -11,7 +11,7 @@ use crate::numerics::Watch;
 use crate::numerics::integrate::{Ending, Flow, IntegrationError, Integrator, Segment, StepOptions};
 
 /// Relative error of a step.
-const RELATIVE: f64 = 1e-9;
+const RELATIVE: f64 = 3e-9;
 /// First and smallest step, relative to the horizon.
 const FIRST_STEP: f64 = 1e-4;
 const SMALLEST_STEP: f64 = 1e-15;
