@@ -110,7 +110,7 @@ impl<'a> Evaluator<'a> {
             self.joint.read(t, &mut self.values);
             self.read_at = t;
         }
-        let found = match self.joint.silent(&self.values, t) {
+        let found = match Joint::silent(&self.values, t) {
             Some(signal) => Err(Trouble::Signal(signal)),
             None => self.evaluate_given(t, w),
         };

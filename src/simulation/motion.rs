@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::evaluator::Evaluator;
 use super::record::Record;
-use super::run::LARGEST_STATE;
+use super::run::{LARGEST_STATE, STEP, fraction};
 use super::singularity::Singularity;
 use super::{Method, SimulationError};
 use crate::numerics::Watch;
@@ -56,7 +56,7 @@ impl Flow for Motion<'_, '_> {
     fn accepted(&mut self, t: f64, state: &[f64]) -> bool {
         self.count += 1;
         let horizon = self.grid.last().copied().unwrap_or(t);
-        if self.count.is_multiple_of(BETWEEN_LOOKS) && !self.watch.go_on((t / horizon) as f32, "simulation") {
+        if self.count.is_multiple_of(BETWEEN_LOOKS) && !self.watch.go_on(fraction(t, horizon), STEP) {
             self.record.stop(SimulationError::Cancelled);
             return false;
         }
