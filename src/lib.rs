@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Layers, each of which may use only those to its left:
-//! `numerics, expression` <- `system` <- `observer` <- `simulation, paper, document` <- `session, headless` <-
+//! `numerics, expression` <- `lmi` <- `system` <- `observer` <- `simulation, paper, document` <- `session, headless` <-
 //! `platform, gui`.
 
 pub mod document;

@@ -7,9 +7,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Layers from low to high; a layer may use itself and what stands before it, unless `ALSO_FORBIDDEN` says otherwise.
-const LAYERS: [&str; 11] = [
+const LAYERS: [&str; 12] = [
     "expression",
     "numerics",
+    "lmi",
     "system",
     "observer",
     "simulation",
@@ -25,8 +26,9 @@ const LAYERS: [&str; 11] = [
 const ALSO_FORBIDDEN: [(&str, &str); 2] = [("numerics", "expression"), ("headless", "session")];
 
 /// A foreign crate and the files that may name it.
-const OWNERS: [(&str, &[&str]); 9] = [
+const OWNERS: [(&str, &[&str]); 10] = [
     ("faer", &["src/numerics/svd.rs", "src/numerics/eigen.rs"]),
+    ("clarabel", &["src/lmi/clarabel.rs"]),
     ("serde_json", &["src/document/", "src/headless/", "src/gui/state_report.rs"]),
     ("postcard", &["src/platform/message.rs"]),
     ("miniz_oxide", &["src/document/link.rs"]),
@@ -102,7 +104,7 @@ fn each_foreign_crate_has_one_owner() {
 #[test]
 fn below_the_platform_there_is_no_clock_thread_or_target() {
     let below =
-        ["expression", "numerics", "system", "observer", "simulation", "paper", "document", "session"];
+        ["expression", "numerics", "lmi", "system", "observer", "simulation", "paper", "document", "session"];
     for layer in below {
         for path in sources(&root().join("src").join(layer)) {
             let code = code(&path);

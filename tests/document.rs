@@ -165,7 +165,7 @@ fn missing_keys_and_wrong_versions_are_named() {
 fn design_choices_are_checked() {
     for (at, value, place, need) in [
         ("/design/method", "\"kalman\"", "design.method", "\"proportional\""),
-        ("/design/order", "\"minimal\"", "design.order", "\"reduced\""),
+        ("/design/order", "\"least\"", "design.order", "\"reduced\""),
         ("/design/order", "3", "design.order", "\"reduced\""),
         ("/design/poles", "-1", "design.poles", "a list of poles"),
         ("/design/poles", "[\"-1\"]", "design.poles[1]", "a number or [real, imaginary]"),
@@ -177,6 +177,17 @@ fn design_choices_are_checked() {
         ("/design/seed", "-1", "design.seed", "a whole number"),
         ("/design/seed", "1.5", "design.seed", "a whole number"),
         ("/design", "[]", "design", "an object is needed"),
+        ("/design/lmi", "7", "design.lmi", "an object is needed"),
+        ("/design/lmi", "{\"decay rate\": 1}", "design.lmi", "the keys here are decay"),
+        ("/design/lmi", "{\"decay\": -1}", "design.lmi.decay", "a number from"),
+        ("/design/lmi", "{\"gain\": \"much\"}", "design.lmi.gain", "\"unbounded\""),
+        ("/design/lmi", "{\"gamma\": 0}", "design.lmi.gamma", "a number from"),
+        ("/design/lmi", "{\"alternative\": 1}", "design.lmi.alternative", "true or false"),
+        ("/design/lmi", "{\"R\": [[1, 2]]}", "design.lmi.R[1]", "a list of"),
+        ("/design/lmi", "{\"decoupled\": [[99]]}", "design.lmi.decoupled[1][1]", "a whole number from 1"),
+        ("/design/lmi", "{\"given\": {\"N\": [[1]]}}", "design.lmi.given", "no key \"J\""),
+        ("/design/lmi", "{\"given\": {\"N\": [[1, 2]], \"J\": [[1]]}}", "design.lmi.given", "N is square"),
+        ("/design/lmi", "{\"seconds\": 1e9}", "design.lmi.seconds", "a number from"),
     ] {
         assert_refused(&changed(WHOLE, at, value), place, need);
     }

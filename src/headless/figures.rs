@@ -66,10 +66,10 @@ fn computed(problem: &Problem, chosen: &dyn Fn(&str) -> bool) -> Result<Vec<Comp
 
 fn standard_figures(problem: &Problem, chosen: &dyn Fn(&str) -> bool) -> Result<Vec<Computed>, Refusal> {
     let (design, trajectory) = simulated(problem)?;
-    let time = problem.model.system.time;
+    let (time, partition) = (problem.model.system.time, problem.model.partition.as_slice());
     let mut figures = vec![
-        standard::states(&trajectory, time),
-        standard::errors(&trajectory, time),
+        standard::states(&trajectory, time, partition),
+        standard::errors(&trajectory, time, partition),
         standard::unknown_inputs(&trajectory, time),
     ];
     figures.extend(standard::bode(&problem.model.system, &design));

@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Condition, Design, DesignError, LmiChoice, proportional, proportional_integral};
+use super::{
+    Condition, Design, DesignError, LmiChoice, decentralized, h_infinity, proportional, proportional_integral,
+};
 use crate::numerics::{Complex64, Tolerance, Watch};
 use crate::system::properties::PropertyError;
 use crate::system::{Model, TimeDomain};
@@ -32,7 +34,7 @@ impl Method {
         match self {
             Self::Proportional => "proportional",
             Self::ProportionalIntegral => "proportional-integral",
-            Self::HInfinity => "h-infinity",
+            Self::HInfinity => "h-infinity-lipschitz",
             Self::Decentralized => "decentralized",
         }
     }
@@ -205,7 +207,8 @@ pub fn conditions(
         Method::ProportionalIntegral => {
             proportional_integral::conditions(&model.system, choice.order, tolerance)
         }
-        Method::HInfinity | Method::Decentralized => Ok(Vec::new()),
+        Method::HInfinity => h_infinity::conditions(model, choice, tolerance),
+        Method::Decentralized => decentralized::conditions(model, choice, tolerance),
     }
 }
 
@@ -234,8 +237,8 @@ pub fn assess(
         Method::ProportionalIntegral => {
             proportional_integral::design(&model.system, choice, &conditions, tolerance)
         }
-        Method::HInfinity | Method::Decentralized => Err(DesignError::Cancelled),
+        Method::HInfinity => h_infinity::design(model, choice, &conditions, tolerance, watch),
+        Method::Decentralized => decentralized::design(model, choice, &conditions, tolerance, watch),
     };
-    drop(watch.clone());
     Ok(Assessment { choice: choice.clone(), conditions, outcome })
 }

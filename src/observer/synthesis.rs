@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::numerics::{Complex64, Placement};
+use crate::numerics::{Complex64, HInfinityNorm, Placement};
 
 /// How the gains of a design were found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -52,6 +52,8 @@ pub struct LmiResult {
     pub gamma: Option<f64>,
     /// The proof of the guarantee.
     pub certificate: Certificate,
+    /// The H-infinity norm of the linear error system, found without inequalities.
+    pub h_infinity: Option<HInfinityNorm>,
     /// Lower bounds of the attenuation by independent means, each with a name: the guarantee cannot be below them.
     pub bounds: Vec<(String, f64)>,
     /// Contraction factor of the implicit output equation, where there is one.

@@ -29,12 +29,24 @@ pub struct Example {
 }
 
 /// All examples, the first of which opens when nothing else is asked for.
-pub const EXAMPLES: [Example; 4] = [
+pub const EXAMPLES: [Example; 6] = [
     Example {
         key: "proportional-integral",
         title: "Koenig and Mammar: unknown input by an integral loop",
         teaches: "Nine figures of the paper: how fast poles catch an unknown input, and what that costs.",
         text: include_str!("../../assets/examples/proportional-integral.json"),
+    },
+    Example {
+        key: "h-infinity-lipschitz",
+        title: "Zerrougui et al.: H-infinity observer with a Lipschitz term",
+        teaches: "Slide the decay rate and see the best attenuation gamma that any observer of that order can reach.",
+        text: include_str!("../../assets/examples/h-infinity-lipschitz.json"),
+    },
+    Example {
+        key: "decentralized",
+        title: "Decentralized observers of two interconnected subsystems",
+        teaches: "Two local observers that do not know each other's states: decoupled exactly, or attenuated.",
+        text: include_str!("../../assets/examples/decentralized.json"),
     },
     Example {
         key: "unseen-impulse",
@@ -71,8 +83,21 @@ pub struct Paper {
 }
 
 /// The papers that are implemented.
-pub const PAPERS: [Paper; 1] = [Paper {
-    key: "004",
-    citation: "D. Koenig and S. Mammar, \"Design of proportional-integral observer for unknown input descriptor \
-               systems\", IEEE Transactions on Automatic Control 47 (2002) 2057-2062",
-}];
+pub const PAPERS: [Paper; 3] = [
+    Paper {
+        key: "000",
+        citation: "\"Decentralized observers for large scale interconnected singular systems\", conference paper on the \
+                   parameterisation of generalized Sylvester equations",
+    },
+    Paper {
+        key: "002",
+        citation: "M. Zerrougui, M. Darouach, L. Boutat-Baddas and H. Souley Ali, \"H-infinity observers design for a \
+                   class of continuous time nonlinear singular systems\", Journal of Control Science and Engineering \
+                   2011, article 967571",
+    },
+    Paper {
+        key: "004",
+        citation: "D. Koenig and S. Mammar, \"Design of proportional-integral observer for unknown input descriptor \
+                   systems\", IEEE Transactions on Automatic Control 47 (2002) 2057-2062",
+    },
+];

@@ -6,12 +6,15 @@ use super::recipe::Quantity;
 use crate::numerics::Complex64;
 use crate::observer::{Design, LinearObserver, Response, unknown_input_response};
 use crate::simulation::Trajectory;
-use crate::system::{DescriptorSystem, TimeDomain};
+use crate::system::{DescriptorSystem, Subsystem, TimeDomain};
 
-/// True and estimated states, one panel each.
-pub fn states(trajectory: &Trajectory, time: TimeDomain) -> FigureSpec {
-    let panel =
-        |i| panel(trajectory, time, &format!("x{}", i + 1), &[(Quantity::State, i), (Quantity::Estimate, i)]);
+/// True and estimated states, one panel each; in a partitioned system the title names the subsystem.
+pub fn states(trajectory: &Trajectory, time: TimeDomain, partition: &[Subsystem]) -> FigureSpec {
+    let panel = |i| {
+        let title = owner(partition, i)
+            .map_or_else(|| format!("x{}", i + 1), |name| format!("x{} of subsystem {name}", i + 1));
+        panel(trajectory, time, &title, &[(Quantity::State, i), (Quantity::Estimate, i)])
+    };
     figure(
         "states",
         "States",
@@ -20,16 +23,43 @@ pub fn states(trajectory: &Trajectory, time: TimeDomain) -> FigureSpec {
     )
 }
 
-/// Estimation errors in one panel, and the error of the unknown input in another.
-pub fn errors(trajectory: &Trajectory, time: TimeDomain) -> FigureSpec {
+/// Estimation errors in one panel for each subsystem, and the error of the unknown input in another.
+pub fn errors(trajectory: &Trajectory, time: TimeDomain, partition: &[Subsystem]) -> FigureSpec {
     let of = |quantity, count: usize| (0..count).map(move |i| (quantity, i)).collect::<Vec<_>>();
-    let mut panels =
-        vec![panel(trajectory, time, "e = x - x_hat", &of(Quantity::Error, trajectory.x.nrows()))];
+    let all = of(Quantity::Error, trajectory.x.nrows());
+    let mut panels = Vec::new();
+    let mut rest = all.as_slice();
+    for (k, subsystem) in partition.iter().enumerate() {
+        let (own, others) = rest.split_at(subsystem.states.min(rest.len()));
+        let title = format!("e = x - x_hat of subsystem {}", name(subsystem, k));
+        panels.push(panel(trajectory, time, &title, own));
+        rest = others;
+    }
+    if !rest.is_empty() {
+        panels.push(panel(trajectory, time, "e = x - x_hat", rest));
+    }
     let estimated = trajectory.observers.first().map_or(0, |o| o.d_hat.nrows());
     if estimated > 0 {
         panels.push(panel(trajectory, time, "d - d_hat", &of(Quantity::UnknownInputError, estimated)));
     }
     figure("errors", "Errors", "Estimation errors.", panels.into_iter())
+}
+
+/// Name of the subsystem that a state belongs to.
+fn owner(partition: &[Subsystem], state: usize) -> Option<String> {
+    let mut first = 0;
+    for (k, subsystem) in partition.iter().enumerate() {
+        first += subsystem.states;
+        if state < first {
+            return Some(name(subsystem, k));
+        }
+    }
+    None
+}
+
+/// The name of a subsystem, or its number when it has none.
+fn name(subsystem: &Subsystem, k: usize) -> String {
+    if subsystem.name.is_empty() { (k + 1).to_string() } else { subsystem.name.clone() }
 }
 
 /// Unknown inputs with their estimates, known inputs and outputs.

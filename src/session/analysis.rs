@@ -161,8 +161,8 @@ fn simulation(
     Ok(Simulation {
         rms: trajectory.rms(&observer.e, half),
         rms_unknown: trajectory.rms(&observer.e_d, half),
-        states: standard::states(&trajectory, system.time),
-        errors: standard::errors(&trajectory, system.time),
+        states: standard::states(&trajectory, system.time, &model.partition),
+        errors: standard::errors(&trajectory, system.time, &model.partition),
         unknown_input: standard::unknown_inputs(&trajectory, system.time),
         notes,
     })

@@ -100,6 +100,12 @@ fn lmi_result(result: &LmiResult) -> Value {
             "statement": result.certificate.statement,
             "note": result.certificate.note,
         },
+        "h_infinity_norm": result.h_infinity.map(|found| json!({
+            "norm": number(found.norm),
+            "frequency": number(found.frequency),
+            "lower": number(found.lower),
+            "upper": number(found.upper),
+        })),
         "lower_bounds": bounds,
         "contraction": result.contraction.map(number),
         "gain": number(result.gain),

@@ -1,29 +1,9 @@
-//! Misprints of the papers, each with the number that proves it.
+//! Misprints of paper 004.
 
-/// A misprint.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Erratum {
-    /// Key of the paper.
-    pub paper: &'static str,
-    /// Where it is.
-    pub place: &'static str,
-    /// Identifier of the condition or name of the matrix that it concerns; empty for the text.
-    pub concerns: &'static str,
-    /// As printed.
-    pub printed: &'static str,
-    /// As it should read.
-    pub correct: &'static str,
-    /// Why: the number or the argument.
-    pub proof: &'static str,
-}
+use super::Erratum;
 
-/// All misprints of a paper.
-pub fn errata(paper: &str) -> impl Iterator<Item = &'static Erratum> {
-    ERRATA.iter().filter(move |erratum| erratum.paper == paper)
-}
-
-/// Misprints of paper 004, in the order of its pages.
-const ERRATA: [Erratum; 11] = [
+/// In the order of its pages.
+pub(super) const ERRATA: [Erratum; 11] = [
     Erratum {
         paper: "004",
         place: "after equation (4)",
@@ -115,17 +95,3 @@ const ERRATA: [Erratum; 11] = [
                 pseudo-inverse leaves the modes 1 and 0 unobservable",
     },
 ];
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_erratum_says_what_is_wrong_and_why() {
-        for erratum in &ERRATA {
-            assert_ne!(erratum.printed, erratum.correct, "{}: nothing is corrected", erratum.place);
-            assert!(!erratum.proof.is_empty(), "{}: no proof", erratum.place);
-        }
-        assert_eq!(errata("004").count(), ERRATA.len(), "all belong to paper 004");
-    }
-}
