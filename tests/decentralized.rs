@@ -7,8 +7,8 @@
 use descry::lmi::Outcome;
 use descry::numerics::{Complex64, Random, Tolerance, Watch};
 use descry::observer::decentralized::{
-    Local, LocalProblem, Sequential, assumption_1, conditions, design, design_local, design_subsystems,
-    design_with, local_conditions, local_problems, strong_detectability,
+    Local, LocalProblem, assumption_1, conditions, design, design_local, design_subsystems, local_conditions,
+    local_problems, strong_detectability,
 };
 use descry::observer::{Design, DesignChoice, DesignError, LmiChoice, Method, Order, Verdict};
 use descry::system::{DescriptorSystem, Model, Subsystem, TimeDomain};
@@ -371,22 +371,18 @@ fn designed(model: &Model, choice: &DesignChoice, watch: &Watch) -> Result<Desig
 fn any_executor_gives_the_same_design() {
     let model = ring(4);
     let choice = choice(Order::Reduced, LmiChoice::default());
-    let asked = conditions(&model, &choice, &tolerance()).unwrap();
     let sequential = designed(&model, &choice, &Watch::none()).unwrap();
     assert!(sequential.verification.verified(), "{:#?}", sequential.verification.checks);
     assert_eq!(sequential.observer.P.nrows(), 12, "all states are estimated");
-    let threaded = design_with(
-        &model,
-        &choice,
-        &asked,
-        &tolerance(),
-        &Watch::none(),
-        &descry::platform::native::Threads,
+    let threads = Watch::none().on(descry::platform::native::Threads);
+    assert_eq!(
+        designed(&model, &choice, &threads).unwrap(),
+        sequential,
+        "the same numbers, whoever computed them"
     );
-    assert_eq!(threaded.unwrap(), sequential, "the same numbers, whoever computed them");
     // each subsystem alone gives the same result: they are independent
     let problems = local_problems(&model).unwrap();
-    let all = design_subsystems(&problems, &choice, &tolerance(), &Watch::none(), &Sequential).unwrap();
+    let all = design_subsystems(&problems, &choice, &tolerance(), &Watch::none()).unwrap();
     for (number, outcome) in all.into_iter().enumerate() {
         let one = design_local(&problems[number], number, &choice, &tolerance(), &Watch::none()).unwrap();
         let (Outcome::Verified(together), Outcome::Verified(alone)) = (outcome.unwrap(), one) else {
