@@ -18,27 +18,25 @@ pub fn show(ui: &mut Ui, session: &Session, widgets: &mut Widgets, out: &mut Out
     let sizes = Sizes::of(document);
     let screen = ui.ctx().content_rect();
     let roomy = screen.height() > 640.0 && screen.width() > theme::NARROW;
-    CollapsingHeader::new(summary(&document.scenario, sizes.discrete))
-        .id_salt("scenario")
-        .default_open(roomy)
-        .show_unindented(ui, |ui| {
-            ui.spacing_mut().item_spacing.y = 4.0;
-            ui.horizontal_wrapped(|ui| levels(ui, &document.scenario, &sizes, out));
-            ui.horizontal_wrapped(|ui| {
-                signals(ui, session, widgets, (SignalList::Known, sizes.inputs), out);
-                signals(ui, session, widgets, (SignalList::Unknown, sizes.unknown), out);
-            });
-            ui.horizontal_wrapped(|ui| initial(ui, session, widgets, sizes.states, out));
-            errors(ui, session, &sizes);
-            if let Some(data) = &document.scenario.uncertainty {
-                CollapsingHeader::new("Amplitudes and frequencies of the uncertainty")
-                    .id_salt("uncertainty")
-                    .show(ui, |ui| {
-                        uncertainty_grid(ui, session, widgets, (&data.amplitude, false), out);
-                        uncertainty_grid(ui, session, widgets, (&data.frequency, true), out);
-                    });
-            }
+    let summary = clipped(summary(&document.scenario, sizes.discrete), ui.available_width());
+    CollapsingHeader::new(summary).id_salt("scenario").default_open(roomy).show_unindented(ui, |ui| {
+        ui.spacing_mut().item_spacing.y = 4.0;
+        ui.horizontal_wrapped(|ui| levels(ui, &document.scenario, &sizes, out));
+        ui.horizontal_wrapped(|ui| {
+            signals(ui, session, widgets, (SignalList::Known, sizes.inputs), out);
+            signals(ui, session, widgets, (SignalList::Unknown, sizes.unknown), out);
         });
+        ui.horizontal_wrapped(|ui| initial(ui, session, widgets, sizes.states, out));
+        errors(ui, session, &sizes);
+        if let Some(data) = &document.scenario.uncertainty {
+            CollapsingHeader::new("Amplitudes and frequencies of the uncertainty")
+                .id_salt("uncertainty")
+                .show(ui, |ui| {
+                    uncertainty_grid(ui, session, widgets, (&data.amplitude, false), out);
+                    uncertainty_grid(ui, session, widgets, (&data.frequency, true), out);
+                });
+        }
+    });
 }
 
 /// Sizes that the fields follow.
@@ -79,6 +77,21 @@ fn summary(scenario: &ScenarioData, discrete: bool) -> String {
         }
     }
     text
+}
+
+/// A header does not wrap: one that is too long would make the whole place wider than a narrow screen.
+fn clipped(text: String, width: f32) -> String {
+    const CHARACTER: f32 = 7.5;
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a small count, not negative"
+    )]
+    let fits = ((width / CHARACTER).max(12.0)) as usize - 6;
+    if text.chars().count() <= fits {
+        return text;
+    }
+    text.chars().take(fits).chain("...".chars()).collect()
 }
 
 /// Whether a change by dragging ends with this frame.

@@ -25,7 +25,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, assessment: &Assessment, out:
             framed(ui, colour, word, &sentence);
         }
         Err(error) => {
-            let (colour, word) = failed(ui, error);
+            let (colour, word) = failed(ui, error, assessment.choice.lmi.given.is_some());
             framed(ui, colour, word, &error_text(error));
             match error {
                 DesignError::Infeasible(infeasible) => mend(ui, session, infeasible, out),
@@ -75,10 +75,11 @@ fn made(ui: &Ui, design: &Design, examined: bool) -> (Color32, &'static str, Str
     (theme::near(ui), "not verified", format!("{title}: the check of {} fails", failed.join(", ")))
 }
 
-fn failed(ui: &Ui, error: &DesignError) -> (Color32, &'static str) {
+fn failed(ui: &Ui, error: &DesignError, examined: bool) -> (Color32, &'static str) {
     match error {
         DesignError::TooFewPoles { .. } | DesignError::Poles(_) => (theme::near(ui), "poles needed"),
         DesignError::Condition { .. } => (theme::bad(ui), "does not exist"),
+        DesignError::Unsuitable(_) if examined => (theme::near(ui), "cannot be examined"),
         DesignError::Unsuitable(_) => (theme::faint(ui), "not for this system"),
         DesignError::Infeasible(_) => (theme::bad(ui), "infeasible"),
         DesignError::Cancelled => (theme::near(ui), "cancelled"),

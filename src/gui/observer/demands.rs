@@ -14,6 +14,9 @@ pub(super) fn show(ui: &mut Ui, session: &Session, derived: &Derived, out: &mut 
     ui.label(RichText::new("Demands").strong());
     let results = results(derived);
     let lmi = &session.document().design.lmi;
+    if lmi.given.is_some() {
+        formula::remark(ui, "These wait while a given observer is examined.");
+    }
     // ids of their own: remarks that come and go above must not break off a drag
     let builder = UiBuilder::new().scope_id(egui::Id::unique("demands"));
     ui.scope_builder(builder, |ui| {

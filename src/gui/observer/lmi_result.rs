@@ -92,7 +92,9 @@ fn numbers(ui: &mut Ui, result: &LmiResult, discrete: bool) {
 /// Lower bounds, the least gamma that was found and the guarantee on one line: how much the proof gives away.
 fn bracket(ui: &mut Ui, result: &LmiResult) {
     let Some(gamma) = result.gamma.filter(|gamma| *gamma > 0.0) else { return };
-    let below = result.bounds.iter().map(|(_, value)| *value).chain(result.gamma_best);
+    let norm = result.h_infinity.as_ref().filter(|_| result.bounds.is_empty()).map(|found| found.norm);
+    let bounds: Vec<f64> = result.bounds.iter().map(|(_, value)| *value).chain(norm).collect();
+    let below = bounds.iter().copied().chain(result.gamma_best);
     let below: Vec<f64> = below.filter(|value| value.is_finite() && *value > 0.0).collect();
     let Some(least) = below.iter().copied().reduce(f64::min) else { return };
     let low = 0.97 * least.min(gamma);
@@ -109,8 +111,8 @@ fn bracket(ui: &mut Ui, result: &LmiResult) {
     let tick = |value: f64, colour, width| {
         painter.vline(x(value), rect.top() + 2.0..=rect.bottom() - 2.0, Stroke::new(width, colour));
     };
-    for (_, bound) in &result.bounds {
-        tick(*bound, theme::near(ui), 2.0);
+    for bound in bounds {
+        tick(bound, theme::near(ui), 2.0);
     }
     if let Some(best) = result.gamma_best {
         tick(best, theme::faint(ui), 2.0);

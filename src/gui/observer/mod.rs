@@ -38,12 +38,13 @@ pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Wid
     };
     if session.document().design.method.uses_lmi() {
         demands::show(ui, session, derived, out);
+        poles::plane(ui, session, derived, out);
+        rows::show(ui, session, derived, widgets, out);
+        audit::show(ui, session, derived, widgets, out);
+        // last, since it comes and goes: nothing that a person types into may jump
         if let Some(Ok(design)) = assessment.map(|assessment| &assessment.outcome) {
             lmi_result::show(ui, design.synthesis.lmi(), demands::is_discrete(session));
         }
-        rows::show(ui, session, derived, widgets, out);
-        audit::show(ui, session, derived, widgets, out);
-        poles::plane(ui, session, derived, out);
     } else {
         poles::show(ui, session, derived, widgets, out);
     }

@@ -113,9 +113,12 @@ fn constant(
 fn exceeded(ui: &mut Ui, derived: &Derived) {
     let Some(analysis) = derived.analysis() else { return };
     let simulated = analysis.simulation.iter().flat_map(|simulation| &simulation.notes);
-    let design = analysis.assessment.as_ref().ok().and_then(|assessment| assessment.outcome.as_ref().ok());
-    let designed = design.into_iter().flat_map(|design| &design.notes);
-    for note in simulated.chain(designed).filter(|note| note.contains("Lipschitz constant")) {
+    let conditions = analysis.assessment.iter().flat_map(|assessment| &assessment.conditions);
+    let refuted = conditions.filter(|c| c.name.contains("Lipschitz constant") && !c.verdict.holds());
+    for condition in refuted {
+        ui.colored_label(theme::bad(ui), &condition.summary);
+    }
+    for note in simulated.filter(|note| note.contains("Lipschitz constant")) {
         ui.colored_label(theme::near(ui), note);
     }
 }

@@ -80,8 +80,9 @@ fn equations(ui: &mut Ui, data: &DescriptorData) {
     };
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 18.0;
-        ui.label(RichText::new(dynamics).monospace());
-        ui.label(RichText::new(output).monospace());
+        for line in [dynamics.as_str(), output] {
+            ui.add(egui::Label::new(RichText::new(line).monospace()).extend());
+        }
     });
 }
 
