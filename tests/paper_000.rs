@@ -89,8 +89,7 @@ fn the_document_holds_the_reference_s_subsystems() {
         let reference = reference(time);
         for (number, problem) in problems(time).iter().enumerate() {
             let expected = &reference["subsystems"][number];
-            for (name, found) in
-                [("E", &problem.E), ("A", &problem.A), ("B", &problem.B), ("H", &problem.H)]
+            for (name, found) in [("E", &problem.E), ("A", &problem.A), ("B", &problem.B), ("H", &problem.H)]
             {
                 assert_eq!(*found, matrix(&expected[name]), "{name} of {}", problem.name);
             }
@@ -121,8 +120,7 @@ fn ranks_and_zeros_are_those_of_the_reference() {
             assert!((theta.smallest() - smallest).abs() < 1e-12, "singular value of Theta");
             let zeros = strong_detectability(problem, &[0], &tolerance()).unwrap();
             assert_eq!(Some(zeros.holds()), expected["strongly_detectable"].as_bool(), "{zeros:?}");
-            let expected: Vec<[f64; 2]> =
-                serde_json::from_value(expected["finite_zeros"].clone()).unwrap();
+            let expected: Vec<[f64; 2]> = serde_json::from_value(expected["finite_zeros"].clone()).unwrap();
             assert_eq!(zeros.modes.len(), expected.len(), "number of zeros");
             for (mode, [re, im]) in zeros.modes.iter().zip(expected) {
                 assert!((mode.s - Complex64::new(re, im)).norm() < 1e-12, "{}", mode.s);
@@ -150,7 +148,12 @@ fn the_parameterisation_is_the_reference_s() {
                 assert_eq!(rank(omega, 0.0, &tolerance()).unwrap().rank, count("rank_Omega"), "rank Omega");
                 let L = family.left_null_of_omega();
                 assert_eq!(L.nrows(), count("free_columns"), "{}", what("free columns"));
-                close(&(L.transpose() * L), &matrix(&expected["projector_I_minus_OmOmp"]), 1e-12, &what("L'L"));
+                close(
+                    &(L.transpose() * L),
+                    &matrix(&expected["projector_I_minus_OmOmp"]),
+                    1e-12,
+                    &what("L'L"),
+                );
                 let (J, F) = family.lambda_output(&decoupled);
                 let compared = [
                     ("Tbar", family.t_bar()),
