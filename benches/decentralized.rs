@@ -5,9 +5,7 @@
 #![expect(non_snake_case, reason = "matrix letters of the canonical form")]
 
 use descry::numerics::{Tolerance, Watch};
-use descry::observer::decentralized::{
-    Executor, LocalProblem, Sequential, design_subsystems, local_problems,
-};
+use descry::observer::decentralized::{LocalProblem, design_subsystems, local_problems};
 use descry::observer::{DesignChoice, Method, Order};
 use descry::platform::native::Threads;
 use descry::system::{DescriptorSystem, Model, Subsystem, TimeDomain};
@@ -40,21 +38,21 @@ fn ring(count: usize) -> Vec<LocalProblem> {
     problems
 }
 
-fn design(problems: &[LocalProblem], executor: &dyn Executor) -> usize {
+fn design(problems: &[LocalProblem], watch: &Watch) -> usize {
     let choice =
         DesignChoice { method: Method::Decentralized, order: Order::Reduced, ..DesignChoice::default() };
-    let outcomes = design_subsystems(problems, &choice, &Tolerance::default(), &Watch::none(), executor);
+    let outcomes = design_subsystems(problems, &choice, &Tolerance::default(), watch);
     outcomes.map_or(0, |outcomes| outcomes.len())
 }
 
 #[divan::bench(args = [2, 8, 32])]
 fn one_after_the_other(bencher: divan::Bencher<'_, '_>, count: usize) {
     let problems = ring(count);
-    bencher.bench(|| design(&problems, &Sequential));
+    bencher.bench(|| design(&problems, &Watch::none()));
 }
 
 #[divan::bench(args = [2, 8, 32])]
 fn on_all_processors(bencher: divan::Bencher<'_, '_>, count: usize) {
     let problems = ring(count);
-    bencher.bench(|| design(&problems, &Threads));
+    bencher.bench(|| design(&problems, &Watch::none().on(Threads)));
 }

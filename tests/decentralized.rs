@@ -7,8 +7,8 @@
 use descry::lmi::Outcome;
 use descry::numerics::{Complex64, Random, Tolerance, Watch};
 use descry::observer::decentralized::{
-    Local, LocalProblem, Sequential, assumption_1, conditions, design, design_local, design_subsystems,
-    design_with, local_conditions, local_problems, strong_detectability,
+    Local, LocalProblem, assumption_1, conditions, design, design_local, design_subsystems, local_conditions,
+    local_problems, strong_detectability,
 };
 use descry::observer::{Design, DesignChoice, DesignError, LmiChoice, Method, Order, Verdict};
 use descry::system::{DescriptorSystem, Model, Subsystem, TimeDomain};
@@ -183,8 +183,9 @@ fn a_gain_bound_that_is_too_tight_is_answered_with_one_that_suffices() {
 
 /// A random subsystem with a singular `E`.
 fn random_problem(random: &mut Random, time: TimeDomain) -> LocalProblem {
-    let pick =
-        |random: &mut Random, from: usize, to: usize| from + (random.bits() as usize) % (to - from + 1);
+    let pick = |random: &mut Random, from: usize, to: usize| {
+        from + usize::try_from(random.bits() % (to - from + 1) as u64).unwrap()
+    };
     let (n, m, couplings) = (3, pick(random, 1, 2), pick(random, 1, 2));
     let mut middle = unit(n);
     for i in pick(random, 1, n - 1)..n {
@@ -371,22 +372,18 @@ fn designed(model: &Model, choice: &DesignChoice, watch: &Watch) -> Result<Desig
 fn any_executor_gives_the_same_design() {
     let model = ring(4);
     let choice = choice(Order::Reduced, LmiChoice::default());
-    let asked = conditions(&model, &choice, &tolerance()).unwrap();
     let sequential = designed(&model, &choice, &Watch::none()).unwrap();
     assert!(sequential.verification.verified(), "{:#?}", sequential.verification.checks);
     assert_eq!(sequential.observer.P.nrows(), 12, "all states are estimated");
-    let threaded = design_with(
-        &model,
-        &choice,
-        &asked,
-        &tolerance(),
-        &Watch::none(),
-        &descry::platform::native::Threads,
+    let threads = Watch::none().on(descry::platform::native::Threads);
+    assert_eq!(
+        designed(&model, &choice, &threads).unwrap(),
+        sequential,
+        "the same numbers, whoever computed them"
     );
-    assert_eq!(threaded.unwrap(), sequential, "the same numbers, whoever computed them");
     // each subsystem alone gives the same result: they are independent
     let problems = local_problems(&model).unwrap();
-    let all = design_subsystems(&problems, &choice, &tolerance(), &Watch::none(), &Sequential).unwrap();
+    let all = design_subsystems(&problems, &choice, &tolerance(), &Watch::none()).unwrap();
     for (number, outcome) in all.into_iter().enumerate() {
         let one = design_local(&problems[number], number, &choice, &tolerance(), &Watch::none()).unwrap();
         let (Outcome::Verified(together), Outcome::Verified(alone)) = (outcome.unwrap(), one) else {
@@ -431,6 +428,12 @@ fn a_partition_that_does_not_fit_is_a_failed_condition() {
     let mut empty = good.clone();
     empty.partition.push(Subsystem { name: "nobody".to_owned(), ..Subsystem::default() });
     refused(&empty, LmiChoice::default(), "subsystem 3 (nobody) has no states");
+    let mut spoiled = good.clone();
+    spoiled.system.A[(4, 2)] = f64::NAN;
+    refused(&spoiled, LmiChoice::default(), "A[5, 3] is not a finite number");
+    let mut misfit = good.clone();
+    misfit.system.A = unit(5);
+    refused(&misfit, LmiChoice::default(), "A is 5 x 5, but 6 x 6 is needed");
     let whole = LmiChoice { rows: vec![unit(3)], ..LmiChoice::default() };
     refused(&good, whole, "R is given for 1 subsystems, but there are 2");
     let lists = LmiChoice { decoupled: Some(vec![Vec::new(); 3]), ..LmiChoice::default() };

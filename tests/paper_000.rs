@@ -306,7 +306,7 @@ fn closed_form(number: usize) -> LocalMatrices {
     }
 }
 
-/// The subsystem with the paper's D_i1, reduced order.
+/// The subsystem with the paper's choice of decoupled columns, reduced order.
 fn setup(number: usize, time: TimeDomain) -> Setup {
     let lmi = LmiChoice { decoupled: Some(vec![vec![3], vec![0]]), ..LmiChoice::default() };
     Setup::new(&problems(time)[number], number, &choice(Order::Reduced, lmi), &tolerance()).unwrap()
@@ -340,9 +340,8 @@ fn the_printed_lyapunov_matrices_prove_only_large_gammas() {
 
 fn trajectory(observer: &LinearObserver) -> Trajectory {
     let document = read_document(include_str!("documents/000-partition.json")).unwrap();
-    let model = model(TimeDomain::Discrete);
-    let scenario = document.scenario(&model.system);
-    scenario.run(&model, &[observer.into()], &tolerance(), &Watch::none()).unwrap()
+    let system = model(TimeDomain::Discrete).system;
+    document.scenario(&system).run_linear(&system, &[observer], &tolerance()).unwrap()
 }
 
 fn vector(value: &Value) -> Vec<f64> {

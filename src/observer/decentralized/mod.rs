@@ -26,7 +26,6 @@ mod conditions;
 mod conditions_modes;
 mod decoupled;
 mod design;
-mod executor;
 mod extended;
 mod inequality;
 mod local;
@@ -41,8 +40,7 @@ pub use columns::{Assumption1, ColumnError, assumption_1, by_hand, greedy, stron
 pub use composite::composite;
 pub use conditions::{conditions, local_conditions};
 pub use decoupled::Decoupled;
-pub use design::{LocalOutcomes, design, design_subsystems, design_with};
-pub use executor::{Executor, Sequential};
+pub use design::{LocalOutcomes, design, design_subsystems};
 pub use extended::extended;
 pub use local::{Local, design_local};
 pub use order::{OrderError, check, chosen};

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-use crate::observer::decentralized::Executor;
+use crate::numerics::Executor;
 
 /// Runs the tasks on as many threads as there are processors; the thread that asks works, too.
 ///
