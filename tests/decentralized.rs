@@ -444,6 +444,7 @@ fn a_partition_that_does_not_fit_is_a_failed_condition() {
 fn a_subsystem_without_outputs_is_refused_by_its_conditions() {
     let mut silent = ring(2);
     silent.system.C = silent.system.C.rows(0, 2).into_owned();
+    silent.system.F = DMatrix::zeros(2, 0);
     silent.partition[1].outputs = 0;
     let choice =
         choice(Order::Full, LmiChoice { decoupled: Some(vec![vec![3], vec![0]]), ..LmiChoice::default() });
