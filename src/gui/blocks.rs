@@ -30,7 +30,8 @@ pub(super) fn fill(ui: &Ui, partition: &[Subsystem], cell: Cell) -> Option<Color
     match cell.matrix {
         Matrix::E | Matrix::A | Matrix::C => {
             let column = owner(partition, cell.column, |s| s.states)?;
-            Some(theme::block(ui, column, row != column))
+            let coupling = row != column;
+            (!coupling || cell.matrix == Matrix::A).then(|| theme::block(ui, column, coupling))
         }
         Matrix::B | Matrix::D | Matrix::F => Some(theme::block(ui, row, true)),
     }

@@ -4,7 +4,7 @@ use egui::{Align2, FontId, Id, Key, Rect, RichText, Sense, Stroke, Ui, vec2};
 
 use super::text_field::text_field;
 use super::{Output, Widgets, blocks, theme};
-use crate::document::{DescriptorData, Matrix, MatrixSyntax, matrix_to_text};
+use crate::document::{DescriptorData, Entry, Matrix, MatrixSyntax, matrix_to_text};
 use crate::session::{Cell, Edit, Field, Fill, Session, cell_name};
 
 /// The widget id of a cell, the same in every frame.
@@ -175,7 +175,7 @@ fn one_cell(ui: &mut Ui, place: Rect, sheet: Sheet<'_>, cell: Cell, widgets: &mu
         child.visuals_mut().text_edit_bg_color = Some(fill);
     }
     let name = cell_name(cell);
-    let typed = text_field(&mut child, widgets, (id, &name), &entry.shown(), draft, place.width());
+    let typed = text_field(&mut child, widgets, (id, &name), &cell_text(entry), draft, place.width());
     if child.memory(|memory| memory.has_focus(id)) {
         widgets.active_cell = Some(cell);
     }
@@ -189,6 +189,16 @@ fn one_cell(ui: &mut Ui, place: Rect, sheet: Sheet<'_>, cell: Cell, widgets: &mu
     if let Some(draft) = draft {
         child.interact(place, id.with("hint"), Sense::hover()).on_hover_text(&draft.error);
     }
+}
+
+/// What a cell shows of an entry: a number in its shorter form, since a cut one would be another number.
+pub(super) fn cell_text(entry: &Entry) -> String {
+    let shown = entry.shown();
+    if entry.text.is_some() {
+        return shown;
+    }
+    let powers = format!("{:e}", entry.value);
+    if powers.len() + 1 < shown.len() { powers } else { shown }
 }
 
 /// The cell that Enter, up or down lead to from the focused one.

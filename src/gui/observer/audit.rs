@@ -119,7 +119,7 @@ fn field(
         let short = if part == GivenPart::Gamma { "gamma <=" } else { label };
         ui.add_sized([56.0, ui.spacing().interact_size.y], egui::Label::new(format!("{short} ")));
         let name = if part == GivenPart::Gamma { label.to_owned() } else { format!("given {label}") };
-        let width = ui.available_width();
+        let width = ui.available_width() - theme::BLOCK_GAP;
         if let Some(text) = text_field(ui, widgets, (id, &name), shown, draft, width) {
             out.edit(Edit::Lmi(LmiEdit::Given { part, text }));
         }

@@ -48,7 +48,13 @@ fn framed(ui: &mut Ui, colour: Color32, word: &str, sentence: &str) {
 }
 
 fn made(ui: &Ui, design: &Design, examined: bool) -> (Color32, &'static str, String) {
-    let title = &design.title;
+    let gammas: Vec<String> =
+        design.synthesis.lmi().iter().filter_map(|result| result.gamma).map(short).collect();
+    let title = if gammas.is_empty() {
+        design.title.clone()
+    } else {
+        format!("gamma {}: {}", gammas.join(" and "), design.title)
+    };
     let unproved: Vec<&str> = design
         .synthesis
         .lmi()

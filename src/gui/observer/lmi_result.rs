@@ -6,17 +6,19 @@ use super::super::{formula, plot::short, theme};
 use crate::observer::{LmiResult, show as show_number};
 
 /// Draws a card for each subsystem.
-pub(super) fn show(ui: &mut Ui, results: &[LmiResult]) {
+pub(super) fn show(ui: &mut Ui, results: &[LmiResult], discrete: bool) {
     if results.is_empty() {
         return;
     }
-    ui.separator();
     ui.label(RichText::new("Guarantee").strong());
     for (k, result) in results.iter().enumerate() {
         let fill = ui.visuals().faint_bg_color;
         egui::Frame::new().fill(fill).corner_radius(5.0).inner_margin(7.0).show(ui, |ui| {
             ui.set_min_width(ui.available_width());
-            ui.push_id(("guarantee", k), |ui| one(ui, result, (results.len() > 1).then_some(k)));
+            ui.push_id(("guarantee", k), |ui| {
+                one(ui, result, (results.len() > 1).then_some(k));
+                numbers(ui, result, discrete);
+            });
         });
     }
 }
@@ -48,10 +50,9 @@ fn one(ui: &mut Ui, result: &LmiResult, subsystem: Option<usize>) {
             &format!("smallest eigenvalue of the inequality at least {:.2e}", result.certificate.margin),
         );
     }
-    numbers(ui, result);
 }
 
-fn numbers(ui: &mut Ui, result: &LmiResult) {
+fn numbers(ui: &mut Ui, result: &LmiResult, discrete: bool) {
     let mut rows: Vec<(String, String)> = Vec::new();
     let mut add = |name: &str, value: Option<f64>| {
         rows.extend(value.map(|value| (name.to_owned(), short(value))));
@@ -60,9 +61,10 @@ fn numbers(ui: &mut Ui, result: &LmiResult) {
     for (name, value) in &result.bounds {
         add(&format!("not below: {name}"), Some(*value));
     }
+    let unit = if discrete { "rad/step" } else { "rad/s" };
     if let Some(norm) = &result.h_infinity {
         let at = if norm.frequency.is_finite() {
-            format!("H-infinity norm, at {} rad", short(norm.frequency))
+            format!("H-infinity norm, at {} {unit}", short(norm.frequency))
         } else {
             "H-infinity norm, at infinite frequency".to_owned()
         };
@@ -76,7 +78,9 @@ fn numbers(ui: &mut Ui, result: &LmiResult) {
         rows.push(("fixed modes".to_owned(), modes.join(", ")));
     }
     rows.push(("iterations of the solver".to_owned(), result.iterations.to_string()));
-    egui::Grid::new("numbers").num_columns(2).spacing([10.0, 2.0]).show(ui, |ui| {
+    const LINE: f32 = 17.0;
+    egui::Grid::new("numbers").num_columns(2).min_row_height(LINE).spacing([10.0, 1.0]).show(ui, |ui| {
+        ui.spacing_mut().interact_size.y = LINE;
         for (name, value) in rows {
             formula::remark(ui, &name);
             ui.label(RichText::new(value).small());

@@ -18,8 +18,8 @@ pub(super) fn tiles(ui: &mut Ui, session: &Session, derived: &Derived, out: &mut
                 if chosen { 2.0 } else { 1.0 },
                 if chosen { theme::accent(ui) } else { theme::faint(ui) },
             );
-            let text = RichText::new(format!("     {}", method.title())).strong();
-            let button = egui::Button::new(text).stroke(stroke).min_size(vec2(130.0, 34.0));
+            let text = RichText::new(format!("      {}", method.title())).strong();
+            let button = egui::Button::new(text).stroke(stroke).min_size(vec2(136.0, 34.0));
             let response = ui.add(button);
             let centre = egui::pos2(response.rect.left() + 15.0, response.rect.center().y);
             match found.map(|found| found.light) {

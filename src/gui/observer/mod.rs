@@ -38,6 +38,9 @@ pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Wid
     };
     if session.document().design.method.uses_lmi() {
         demands::show(ui, session, derived, out);
+        if let Some(Ok(design)) = assessment.map(|assessment| &assessment.outcome) {
+            lmi_result::show(ui, design.synthesis.lmi(), demands::is_discrete(session));
+        }
         rows::show(ui, session, derived, widgets, out);
         audit::show(ui, session, derived, widgets, out);
         poles::plane(ui, session, derived, out);
@@ -45,9 +48,6 @@ pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Wid
         poles::show(ui, session, derived, widgets, out);
     }
     let Some(assessment) = assessment else { return };
-    if let Ok(design) = &assessment.outcome {
-        lmi_result::show(ui, design.synthesis.lmi());
-    }
     if !assessment.conditions.is_empty() {
         ui.separator();
         ui.label(RichText::new("Conditions").strong());

@@ -5,6 +5,7 @@ use egui::{RichText, Ui};
 use nalgebra::DMatrix;
 
 use super::super::entry_grid::{EntryGrid, Typed, show as grid};
+use super::super::matrix_grid::cell_text;
 use super::super::{Output, Widgets, formula};
 use crate::document::{Entry, PlantData, Sizes};
 use crate::observer::{Design, Method};
@@ -98,7 +99,7 @@ fn one(
         formula::remark(ui, &format!("{} x {}", R.nrows(), R.ncols()));
     });
     let shown = |row: usize, column: usize| {
-        R.get((row, column)).map_or_else(String::new, |value| Entry::number(*value).shown())
+        R.get((row, column)).map_or_else(String::new, |value| cell_text(&Entry::number(*value)))
     };
     let draft = |row, column| session.draft(&Field::Rows(subsystem, row, column)).cloned();
     let column = |column: usize| format!("x{}", column + 1);

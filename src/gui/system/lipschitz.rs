@@ -3,6 +3,7 @@
 use egui::{CollapsingHeader, Id, RichText, Ui};
 
 use super::super::entry_grid::{EntryGrid, Typed, show as grid};
+use super::super::matrix_grid::cell_text;
 use super::super::text_field::text_field;
 use super::super::{Output, Widgets, formula, theme};
 use super::partition::shape;
@@ -76,7 +77,7 @@ fn components(
         ui.horizontal(|ui| {
             ui.label(format!("{name}(x) ="));
             let id = Id::unique(("component", index));
-            let width = ui.available_width();
+            let width = ui.available_width() - theme::BLOCK_GAP;
             if let Some(text) = text_field(ui, widgets, (id, &name), shown, draft, width) {
                 out.edit(Edit::Lipschitz(LipschitzEdit::Component { index, text }));
             }
@@ -132,7 +133,7 @@ fn matrix(
         ui.label(RichText::new(name).strong().size(16.0));
         formula::remark(ui, &shape(entries));
     });
-    let shown = |row, column| entries.entry(row, column).map(Entry::shown).unwrap_or_default();
+    let shown = |row, column| entries.entry(row, column).map(cell_text).unwrap_or_default();
     let draft = |row, column| session.draft(&Field::Lipschitz(matrix, row, column)).cloned();
     let spec = EntryGrid { name, shape: entries.shape(), shown: &shown, draft: &draft, column };
     match grid(ui, widgets, &spec) {

@@ -78,7 +78,11 @@ fn equations(ui: &mut Ui, data: &DescriptorData) {
     } else {
         (format!("E x' = A x + B u{nonlinear} + D d"), "y = C x + F d")
     };
-    ui.label(RichText::new(format!("{dynamics},   {output}")).monospace());
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 18.0;
+        ui.label(RichText::new(dynamics).monospace());
+        ui.label(RichText::new(output).monospace());
+    });
 }
 
 fn time_and_sizes(ui: &mut Ui, data: &DescriptorData, out: &mut Output) {
