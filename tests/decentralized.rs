@@ -183,8 +183,9 @@ fn a_gain_bound_that_is_too_tight_is_answered_with_one_that_suffices() {
 
 /// A random subsystem with a singular `E`.
 fn random_problem(random: &mut Random, time: TimeDomain) -> LocalProblem {
-    let pick =
-        |random: &mut Random, from: usize, to: usize| from + (random.bits() as usize) % (to - from + 1);
+    let pick = |random: &mut Random, from: usize, to: usize| {
+        from + usize::try_from(random.bits() % (to - from + 1) as u64).unwrap()
+    };
     let (n, m, couplings) = (3, pick(random, 1, 2), pick(random, 1, 2));
     let mut middle = unit(n);
     for i in pick(random, 1, n - 1)..n {
@@ -427,6 +428,12 @@ fn a_partition_that_does_not_fit_is_a_failed_condition() {
     let mut empty = good.clone();
     empty.partition.push(Subsystem { name: "nobody".to_owned(), ..Subsystem::default() });
     refused(&empty, LmiChoice::default(), "subsystem 3 (nobody) has no states");
+    let mut spoiled = good.clone();
+    spoiled.system.A[(4, 2)] = f64::NAN;
+    refused(&spoiled, LmiChoice::default(), "A[5, 3] is not a finite number");
+    let mut misfit = good.clone();
+    misfit.system.A = unit(5);
+    refused(&misfit, LmiChoice::default(), "A is 5 x 5, but 6 x 6 is needed");
     let whole = LmiChoice { rows: vec![unit(3)], ..LmiChoice::default() };
     refused(&good, whole, "R is given for 1 subsystems, but there are 2");
     let lists = LmiChoice { decoupled: Some(vec![Vec::new(); 3]), ..LmiChoice::default() };
@@ -437,6 +444,7 @@ fn a_partition_that_does_not_fit_is_a_failed_condition() {
 fn a_subsystem_without_outputs_is_refused_by_its_conditions() {
     let mut silent = ring(2);
     silent.system.C = silent.system.C.rows(0, 2).into_owned();
+    silent.system.F = DMatrix::zeros(2, 0);
     silent.partition[1].outputs = 0;
     let choice =
         choice(Order::Full, LmiChoice { decoupled: Some(vec![vec![3], vec![0]]), ..LmiChoice::default() });

@@ -183,7 +183,7 @@ fn design_choices_are_checked() {
         ("/design/lmi", "{\"gain\": \"much\"}", "design.lmi.gain", "\"unbounded\""),
         ("/design/lmi", "{\"gamma\": 0}", "design.lmi.gamma", "a number from"),
         ("/design/lmi", "{\"alternative\": 1}", "design.lmi.alternative", "true or false"),
-        ("/design/lmi", "{\"R\": [[1, 2]]}", "design.lmi.R[1]", "a list of"),
+        ("/design/lmi", "{\"R\": [[1, 2]]}", "design.lmi.R[1][1]", "a list of"),
         ("/design/lmi", "{\"decoupled\": [[99]]}", "design.lmi.decoupled[1][1]", "a whole number from 1"),
         ("/design/lmi", "{\"given\": {\"N\": [[1]]}}", "design.lmi.given", "no key \"J\""),
         ("/design/lmi", "{\"given\": {\"N\": [[1, 2]], \"J\": [[1]]}}", "design.lmi.given", "N is square"),

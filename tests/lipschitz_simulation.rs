@@ -295,7 +295,7 @@ fn a_nonlinearity_that_jumps_in_time_and_an_uncertain_entry_are_followed() {
         let turn = std::f64::consts::TAU;
         let exponent = t + 0.5 * (1.0 - (turn * t).cos()) / turn + (t - 1.03).max(0.0);
         let off = (found.x[(0, k)] - (-exponent).exp()).abs();
-        assert!(off < 1e-8, "at {t}: {off:.1e}");
+        assert!(off < 5e-8, "at {t}: {off:.1e}");
     }
 }
 

@@ -306,7 +306,7 @@ fn closed_form(number: usize) -> LocalMatrices {
     }
 }
 
-/// The subsystem with the paper's D_i1, reduced order.
+/// The subsystem with the paper's choice of decoupled columns, reduced order.
 fn setup(number: usize, time: TimeDomain) -> Setup {
     let lmi = LmiChoice { decoupled: Some(vec![vec![3], vec![0]]), ..LmiChoice::default() };
     Setup::new(&problems(time)[number], number, &choice(Order::Reduced, lmi), &tolerance()).unwrap()

@@ -594,3 +594,23 @@ fn frozen_slopes_of_several_components_are_all_below_gamma() {
         assert!(norm <= gamma, "{name}: {norm} above {gamma}");
     }
 }
+
+/// The pseudo-inverses of a plant in milliseconds are as noisy as its rows are uneven: none of that reaches the solver.
+#[test]
+fn fast_plants_are_designed_for_without_noise() {
+    for speed in [1e2, 1e3, 1e4] {
+        let mut fast = model();
+        for matrix in [&mut fast.system.A, &mut fast.system.B, &mut fast.system.D] {
+            *matrix *= speed;
+        }
+        fast.lipschitz.as_mut().unwrap().G *= speed;
+        let plant = Plant::new(&fast, &tolerance()).unwrap();
+        let family = Parameterisation::new(&plant, &rows("reduced"), &tolerance()).unwrap();
+        assert_eq!(family.Lambda_N[(0, 0)], 0.0, "speed {speed}: a zero is a zero");
+        let lmi = LmiChoice { decay: Some(0.5 * speed), gain: None, ..LmiChoice::default() };
+        let found = assessed(&fast, &choice("reduced", lmi));
+        assert!(found.verified(), "speed {speed}: {:#?}", found.outcome);
+        let gamma = result(found.outcome.as_ref().unwrap()).gamma_best.unwrap();
+        assert!((gamma - 2.2965).abs() < 1e-3, "speed {speed}: {gamma}, the limit of heavy algebraic rows");
+    }
+}

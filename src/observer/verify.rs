@@ -253,9 +253,8 @@ pub fn unknown_input_response(
     let mut response =
         Response::at(s, system, observer, &complex(&system.D), &DMatrix::zeros(system.n_inputs(), q))?;
     let direct = complex(&system.F);
-    let z = pencil(s, &DMatrix::identity(observer.order(), observer.order()), &observer.N)
-        .lu()
-        .solve(&(complex(&observer.L) * &direct))?;
+    let states = pencil(s, &DMatrix::identity(observer.order(), observer.order()), &observer.N);
+    let z = solve(&states, &(complex(&observer.L) * &direct))?;
     response.x_hat += complex(&observer.P) * &z + complex(&observer.V) * &direct;
     response.d_hat += complex(&observer.Q) * &z + complex(&observer.R) * &direct;
     Some(response)

@@ -11,7 +11,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 /// ```
 /// use descry::lmi::certificate::Interval;
 /// let sum = Interval::point(0.1) + Interval::point(0.2);
-/// assert!(sum.low() < 0.3 && 0.3 < sum.high() && sum.high() - sum.low() < 2e-16);
+/// assert!(sum.low() <= 0.3 && 0.3 < sum.high() && sum.high() - sum.low() < 2e-16);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {

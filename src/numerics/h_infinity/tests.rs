@@ -41,21 +41,23 @@ fn stable(
 
 /// The largest gain on a grid of frequencies, by a Neumann-free direct solve.
 fn grid(system: &Matrices, region: StabilityRegion, points: usize) -> f64 {
-    let (a, b, c, d) = system;
-    let n = a.nrows();
-    let unit = DMatrix::<Complex64>::identity(n, n);
-    let mut best = 0.0_f64;
-    for k in 0..=points {
-        let part = k as f64 / points as f64;
-        let s = match region {
-            StabilityRegion::LeftHalfPlane => Complex64::new(0.0, 10.0_f64.powf(7.0 * part - 4.0)),
-            StabilityRegion::UnitDisk => Complex64::from_polar(1.0, PI * part),
-        };
-        let inverse = (&unit * s - a.map(Complex64::from)).try_inverse().unwrap();
-        let value = c.map(Complex64::from) * inverse * b.map(Complex64::from) + d.map(Complex64::from);
-        best = best.max(crate::numerics::complex_svd(&value).unwrap().s[0]);
-    }
-    best
+    let frequency = |part: f64| match region {
+        StabilityRegion::LeftHalfPlane => 10.0_f64.powf(7.0 * part - 4.0),
+        StabilityRegion::UnitDisk => PI * part,
+    };
+    (0..=points).map(|k| gain_at(system, region, frequency(k as f64 / points as f64))).fold(0.0, f64::max)
+}
+
+/// The largest singular value of `C (s I - A)^-1 B + D` by an explicit inverse, which the norm itself never forms.
+fn gain_at((a, b, c, d): &Matrices, region: StabilityRegion, frequency: f64) -> f64 {
+    let s = match region {
+        StabilityRegion::LeftHalfPlane => Complex64::new(0.0, frequency),
+        StabilityRegion::UnitDisk => Complex64::from_polar(1.0, frequency),
+    };
+    let unit = DMatrix::<Complex64>::identity(a.nrows(), a.nrows());
+    let inverse = (&unit * s - a.map(Complex64::from)).try_inverse().unwrap();
+    let value = c.map(Complex64::from) * inverse * b.map(Complex64::from) + d.map(Complex64::from);
+    crate::numerics::complex_svd(&value).unwrap().s[0]
 }
 
 #[test]
@@ -150,7 +152,16 @@ fn random_systems_are_never_below_a_dense_grid() {
         let found = norm_of(&system, region).unwrap();
         let seen = grid(&system, region, 1500);
         assert!(found.norm >= seen * (1.0 - 1e-9), "trial {trial}: {found:?}, but the grid shows {seen}");
-        assert!(found.norm <= seen * 1.05, "trial {trial}: {found:?} is far above the grid's {seen}");
+        // a sharp peak may lie between two points of the grid: its gain is evaluated apart
+        let near = if found.frequency.is_finite() {
+            gain_at(&system, region, found.frequency)
+        } else {
+            system.3.norm()
+        };
+        assert!(
+            found.norm <= seen.max(near) * (1.0 + 1e-6),
+            "trial {trial}: {found:?} is above every gain that is seen: {seen}, {near}"
+        );
     }
 }
 

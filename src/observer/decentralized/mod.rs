@@ -10,7 +10,7 @@
 //! | H | `C` | m x n | its outputs |
 //! | partition into N subsystems | [`crate::system::Model::partition`] | | sizes of the subsystems |
 //! | E_i, A_ii, B_i, H_i | `E`, `A`, `B`, `H` of [`LocalProblem`] | e x n, e x n, e x k, m x n | one subsystem |
-//! | D_i = [A_ij], v_i | `D`, `sources` of [`LocalProblem`] | e x (nonzero columns) | the other subsystems' states |
+//! | `D_i = [A_ij]`, v_i | `D`, `sources` of [`LocalProblem`] | e x (nonzero columns) | the other subsystems' states |
 //! | D_i1, D_i2 | `D1`, `D2` of [`Decoupled`] | e x q1, e x q2 | decoupled exactly, attenuated |
 //! | Phi_i, E_bar, A_bar, Theta_i | [`Decoupled`] | r x e, ... | what is left after the exact decoupling |
 //! | R_i, Omega_i, Lambda, Delta | [`Parameterisation`] | beta x n, ... | all observers of one order |

@@ -3,7 +3,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::system::{DescriptorSystem, Model, PartitionError, TimeDomain, check_partition};
+use crate::system::{DescriptorSystem, Model, PartitionError, SystemError, TimeDomain, check_partition};
 
 /// One subsystem as its own observer sees it: what the others do enters as an unknown input.
 ///
@@ -49,6 +49,9 @@ pub struct LocalProblem {
 /// A plant that cannot be cut into subsystems.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CutError {
+    /// The plant's matrices do not fit together, or are not finite.
+    #[error(transparent)]
+    System(#[from] SystemError),
     /// There is no partition.
     #[error("the plant has no partition: say how many states, equations and outputs each subsystem has")]
     NoPartition,
@@ -84,7 +87,7 @@ pub enum CutError {
 /// Cuts a plant into its subsystems.
 ///
 /// # Errors
-/// [`CutError`]: a partition that is missing, does not fit or has an empty subsystem, or a feedthrough of an unknown
+/// [`CutError`]: matrices that do not fit, a partition that is missing, does not fit or has an empty subsystem, or a feedthrough of an unknown
 /// input.
 ///
 /// # Source
@@ -94,6 +97,7 @@ pub fn local_problems(model: &Model) -> Result<Vec<LocalProblem>, CutError> {
     if partition.is_empty() {
         return Err(CutError::NoPartition);
     }
+    system.clone().checked()?;
     check_partition(system, partition)?;
     for (index, part) in partition.iter().enumerate() {
         for (what, count) in [("states", part.states), ("equations", part.equations)] {

@@ -2,6 +2,8 @@
 
 use nalgebra::DMatrix;
 
+use crate::numerics::{NumericsError, Tolerance, pseudo_inverse};
+
 /// What an entry must exceed to count, relative to the size of the terms it was made of.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
@@ -14,9 +16,28 @@ pub(super) fn tidy(matrix: &DMatrix<f64>, terms: f64) -> DMatrix<f64> {
 
 /// A product with entries below rounding set to zero.
 pub(super) fn product(factors: &[&DMatrix<f64>]) -> DMatrix<f64> {
+    inexact_product(factors, 1.0)
+}
+
+/// A product with entries below the noise of its factors set to zero; `noise` is theirs in units of rounding, the
+/// condition number for a pseudo-inverse.
+pub(super) fn inexact_product(factors: &[&DMatrix<f64>], noise: f64) -> DMatrix<f64> {
     let Some((first, rest)) = factors.split_first() else { return DMatrix::zeros(0, 0) };
     let whole = rest.iter().fold((*first).clone(), |left, right| left * *right);
-    tidy(&whole, factors.iter().map(|factor| factor.norm()).product())
+    tidy(&whole, noise * factors.iter().map(|factor| factor.norm()).product::<f64>())
+}
+
+/// A pseudo-inverse without noise, and the condition number that says how much of it there was.
+///
+/// # Errors
+/// When a decomposition fails its check.
+pub(super) fn clean_inverse(
+    matrix: &DMatrix<f64>,
+    tolerance: &Tolerance,
+) -> Result<(DMatrix<f64>, f64), NumericsError> {
+    let found = pseudo_inverse(matrix, tolerance)?;
+    let condition = (matrix.norm() * found.norm()).max(1.0);
+    Ok((tidy(&found, condition * found.norm()), condition))
 }
 
 /// Another orthonormal basis (rows) of the same space, which does not depend on the one that is given.

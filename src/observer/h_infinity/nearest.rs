@@ -30,8 +30,8 @@ pub(super) fn nearest(
     settings: &Settings,
 ) -> Result<Vec<Nearest>, Stop> {
     let part = |k: u8| {
-        let from = f32::from(k) / 4.0;
-        Settings { watch: settings.watch.part(from, from + 0.25), ..settings.clone() }
+        let from = f32::from(k) / 5.0;
+        Settings { watch: settings.watch.part(from, from + 0.2), ..settings.clone() }
     };
     let mut result = Vec::new();
     let mut add = |quantity: &str, asked: f64, feasible: Option<f64>| {
@@ -53,6 +53,11 @@ pub(super) fn nearest(
     if let Some(gain) = demands.gain.filter(|_| family.free_columns() > 0) {
         let settings = part(3);
         add("gain bound", gain, Search { plant, family, settings: &settings }.gain(demands, gain)?);
+    }
+    if demands.conditioning.is_finite() {
+        let settings = part(4);
+        let found = Search { plant, family, settings: &settings }.conditioning(demands)?;
+        add("condition of X", demands.conditioning, found);
     }
     Ok(result)
 }
@@ -100,10 +105,18 @@ impl Search<'_> {
 
     /// The smallest gain bound; `None` when no gain helps.
     fn gain(&self, demands: &Demands, asked: f64) -> Result<Option<f64>, Stop> {
+        self.enlarged(asked, |gain| Demands { gain: Some(gain), ..*demands })
+    }
+
+    /// The smallest bound on the condition of X; `None` when none helps.
+    fn conditioning(&self, demands: &Demands) -> Result<Option<f64>, Stop> {
+        self.enlarged(demands.conditioning, |conditioning| Demands { conditioning, ..*demands })
+    }
+
+    /// The smallest bound that is feasible, between what is asked and a number of decades more.
+    fn enlarged(&self, asked: f64, demands: impl Fn(f64) -> Demands) -> Result<Option<f64>, Stop> {
         let largest = asked.log10() + DECADES;
-        let holds = |log: f64, done| {
-            self.holds(self.plant, &Demands { gain: Some(10.0_f64.powf(log)), ..*demands }, done)
-        };
+        let holds = |log: f64, done| self.holds(self.plant, &demands(10.0_f64.powf(log)), done);
         if !holds(largest, 0.0)? {
             return Ok(None);
         }

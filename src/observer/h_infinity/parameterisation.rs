@@ -3,7 +3,7 @@
 
 use nalgebra::DMatrix;
 
-use super::basis::{orthonormal_rows, product, tidy};
+use super::basis::{clean_inverse, inexact_product, orthonormal_rows, product, tidy};
 use super::plant::Plant;
 use crate::numerics::{NumericsError, Tolerance, null_space, pseudo_inverse, side_by_side, stack, subspaces};
 use crate::observer::Order;
@@ -115,14 +115,16 @@ impl Parameterisation {
         let system = &plant.system;
         let (e, q, r, p) = (system.n_equations(), R.nrows(), plant.Phi.nrows(), system.n_outputs());
         // (45), (46): [T_tilde K] = R [E; Phi A; C]+
-        let T_K = product(&[R, &pseudo_inverse(&plant.Theta(), tolerance)?]);
+        let (Theta_pinv, of_Theta) = clean_inverse(&plant.Theta(), tolerance)?;
+        let T_K = inexact_product(&[R, &Theta_pinv], of_Theta);
         let T_tilde = T_K.columns(0, e).into_owned();
         // ERRATUM(002, definition of Omega): printed with T; (47) and the printed P, Q, F need T_tilde
         let Omega = stack(&[&product(&[&T_tilde, &system.E]), &plant.known()]);
-        let Omega_pinv = product(&[&pseudo_inverse(&Omega, tolerance)?]);
+        let (Omega_pinv, of_Omega) = clean_inverse(&Omega, tolerance)?;
+        let noise = of_Theta + of_Omega;
         let L = orthonormal_rows(&subspaces(&Omega, 0.0, tolerance)?.left_null.transpose());
         // (47): [N Psi J] = T_tilde A Omega+ - Z L,   (48): [P Q F] = Omega+
-        let Lambda = product(&[&T_tilde, &system.A, &Omega_pinv]);
+        let Lambda = inexact_product(&[&T_tilde, &system.A, &Omega_pinv], noise);
         let parts = |joined: &DMatrix<f64>| {
             let part = |from, width| joined.columns(from, width).into_owned();
             (part(0, q), part(q, r), part(q + r, p))
@@ -130,8 +132,9 @@ impl Parameterisation {
         let ((Lambda_N, Lambda_Psi, Lambda_J), (L_N, L_Psi, L_J)) = (parts(&Lambda), parts(&L));
         let (P, Q, V) = parts(&Omega_pinv);
         let (Phi_G, Phi_D) = (product(&[&plant.Phi, &plant.acting()]), product(&[&plant.Phi, &system.D]));
-        let sum =
-            |terms: [DMatrix<f64>; 2]| tidy(&(&terms[0] + &terms[1]), terms[0].norm() + terms[1].norm());
+        let sum = |terms: [DMatrix<f64>; 2]| {
+            tidy(&(&terms[0] + &terms[1]), noise * (terms[0].norm() + terms[1].norm()))
+        };
         // ERRATUM(002, Delta_TD): printed -Delta_Psi Lambda Phi D; the Lambda belongs to the next symbol
         let Lambda_TG = sum([product(&[&T_tilde, &plant.acting()]), -product(&[&Lambda_Psi, &Phi_G])]);
         let L_TG = -product(&[&L_Psi, &Phi_G]);
