@@ -62,7 +62,7 @@ fn one(ui: &mut Ui, partition: &[Subsystem], k: usize, rectangular: bool, out: &
             .desired_width(width);
         let response = ui.add(field);
         response.ctx.accesskit_node_builder(response.id, |node| {
-            node.set_label(format!("Name of subsystem {}", k + 1))
+            node.set_label(format!("Name of subsystem {}", k + 1));
         });
         if response.changed() {
             out.edit(Edit::Partition(PartitionEdit::Name { subsystem: k, name }));
