@@ -3,6 +3,13 @@
 #![expect(clippy::unwrap_used, reason = "helpers of tests fail by panicking")]
 #![expect(non_snake_case, reason = "matrix letters of the paper")]
 
+// the same tests run in a browser
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+#[cfg(target_arch = "wasm32")]
+wasm_bindgen_test::wasm_bindgen_test_configure!(run_in_browser);
+
 use descry::lmi::{Settings, minimise, optimum};
 use descry::numerics::{Tolerance, Watch};
 use descry::observer::h_infinity::{
