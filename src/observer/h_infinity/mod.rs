@@ -36,7 +36,6 @@ mod output;
 mod parameterisation;
 mod plant;
 mod rows;
-mod sampling;
 
 pub use bounds::{ErrorSystem, frozen_slopes};
 pub use conditions::conditions;
@@ -45,4 +44,3 @@ pub use inequality::{Demands, Posed, pose};
 pub use output::contraction;
 pub use parameterisation::{Matrices, Parameterisation, default_rows};
 pub use plant::Plant;
-pub use sampling::{SteepestSample, sample_slope};
