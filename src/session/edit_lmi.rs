@@ -26,7 +26,7 @@ pub(super) fn change(document: &mut Document, edit: LmiEdit) -> Edited {
         LmiEdit::Gain { gain, .. } => optional(&mut lmi.gain, gain, SIZE),
         LmiEdit::Gamma { gamma, .. } => optional(&mut lmi.gamma, gamma, SIZE),
         LmiEdit::Conditioning { conditioning, .. } => {
-            within(&mut lmi.conditioning, conditioning, [1.0, 1e12])
+            within(&mut lmi.conditioning, conditioning, [1.0, 1e12]);
         }
         LmiEdit::BackOff { back_off, .. } => within(&mut lmi.back_off, back_off, [1e-6, 1.0]),
         LmiEdit::Seconds { seconds, .. } => within(&mut lmi.seconds, seconds, [0.01, 600.0]),
@@ -184,13 +184,12 @@ fn rows_paste(lmi: &mut LmiChoice, subsystem: usize, text: &str) -> Edited {
 
 /// Reads a matrix in any notation, or a single number.
 fn matrix_of(text: &str) -> Result<DMatrix<f64>, String> {
-    let matrix = match Entry::typed(text) {
-        Ok(entry) => DMatrix::from_element(1, 1, entry.value),
-        Err(_) => {
-            let found = matrix_from_text(text).map_err(|error| error.to_string())?;
-            let values = found.entries.iter().map(|(_, value)| *value);
-            DMatrix::from_row_iterator(found.rows, found.columns, values)
-        }
+    let matrix = if let Ok(entry) = Entry::typed(text) {
+        DMatrix::from_element(1, 1, entry.value)
+    } else {
+        let found = matrix_from_text(text).map_err(|error| error.to_string())?;
+        let values = found.entries.iter().map(|(_, value)| *value);
+        DMatrix::from_row_iterator(found.rows, found.columns, values)
     };
     if storable(&matrix) {
         return Ok(matrix);
@@ -225,7 +224,7 @@ fn claimed(text: &str) -> Result<Option<f64>, String> {
         return Ok(None);
     }
     let value = Entry::typed(text)?.value;
-    if value >= SIZE[0] && value <= SIZE[1] {
+    if (SIZE[0]..=SIZE[1]).contains(&value) {
         return Ok(Some(value));
     }
     Err(format!("an attenuation is a positive number up to {:e}", SIZE[1]))

@@ -246,7 +246,8 @@ fn renamed(
         return (1..=count).map(|k| format!("subsystem {k}")).collect();
     }
     if let Some(border) = added {
-        let fresh = (2..).map(|k| format!("subsystem {k}")).find(|name| !names.contains(name));
+        let fresh =
+            (2..=names.len() + 2).map(|k| format!("subsystem {k}")).find(|name| !names.contains(name));
         names.insert((border + 1).min(names.len()), fresh.unwrap_or_default());
     }
     names

@@ -140,7 +140,9 @@ fn decoupled(document: &mut Document) {
     let PlantData::Descriptor(data) = &document.plant else { return };
     let Some(lists) = &mut document.design.lmi.decoupled else { return };
     let states = data.matrix(Matrix::E).shape().1;
-    lists.iter_mut().for_each(|list| list.retain(|state| *state < states));
+    for list in lists.iter_mut() {
+        list.retain(|state| *state < states);
+    }
     if data.partition.is_empty() {
         return;
     }

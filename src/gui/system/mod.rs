@@ -131,7 +131,7 @@ fn steps(ui: &mut Ui, label: &str, shown: &str, count: usize) -> Option<bool> {
                 for (symbol, grow, word) in [("-", false, "Fewer"), ("+", true, "More")] {
                     let response = ui.add(egui::Button::new(symbol).min_size(egui::vec2(24.0, 24.0)));
                     response.ctx.accesskit_node_builder(response.id, |node| {
-                        node.set_label(format!("{word} {label}"))
+                        node.set_label(format!("{word} {label}"));
                     });
                     if response.clicked() {
                         clicked = Some(grow);
