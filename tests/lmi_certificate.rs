@@ -82,7 +82,7 @@ fn near_singular_matrices_are_never_proved_falsely() {
         if trial % 3 == 0 {
             // the same verdict in other units
             let units =
-                DMatrix::from_diagonal(&DVector::from_fn(n, |i, _| 2.0_f64.powi(20 * (i as i32 - 2))));
+                DMatrix::from_diagonal(&DVector::from_fn(n, |i, _| 2.0_f64.powf(20.0 * (i as f64 - 2.0))));
             matrix = &units * matrix * &units;
         }
         let matrix = DMatrix::from_fn(n, n, |i, j| matrix[(i.min(j), i.max(j))]);
@@ -105,7 +105,7 @@ fn a_proof_holds_for_every_matrix_within_the_intervals() {
         let n = 2 + trial % 4;
         let factor = gaussian(&mut random, n, n);
         let centre = &factor * factor.transpose();
-        let radius = 10.0_f64.powi(-(trial as i32 % 6)) * 0.3;
+        let radius = 10.0_f64.powf(-((trial % 6) as f64)) * 0.3;
         let wide = IntervalMatrix::from_fn(n, n, |i, j| {
             let x = centre[(i.min(j), i.max(j))];
             Interval::point(x - radius).hull(Interval::point(x + radius))

@@ -2,6 +2,13 @@
 #![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail by panicking")]
 #![expect(non_snake_case, reason = "matrix letters of the paper")]
 
+// the same tests run in a browser
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+#[cfg(target_arch = "wasm32")]
+wasm_bindgen_test::wasm_bindgen_test_configure!(run_in_browser);
+
 use descry::document::read_document;
 use descry::lmi::Outcome;
 use descry::numerics::{Complex64, Tolerance, Watch, rank};

@@ -164,9 +164,9 @@ mod tests {
     fn a_level_limits_the_objective() {
         let scaled = scaled();
         let program = Program::new(&scaled, Goal::Margin { level: Some(4.0), all: false }, 10.0);
-        let (below, above) = ([1.0, 0.0, 1.0, 0.0], [9.0, 0.0, 9.0, 0.0]);
+        let points = [[1.0, 0.0, 1.0, 0.0], [9.0, 0.0, 9.0, 0.0]];
         let value = |xi: &[f64]| (4.0 - scaled.objective.value(xi)) / 4.0;
-        for xi in [below, above] {
+        for xi in points {
             assert!((slack(&program, 1, &xi) - value(&xi)).abs() < 1e-15, "(level - objective) / |level|");
         }
     }

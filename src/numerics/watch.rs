@@ -5,12 +5,15 @@ use std::sync::Arc;
 
 use super::executor::{Executor, Sequential};
 
+/// Hears a fraction and what is being done, and answers whether to go on.
+type Listener = dyn Fn(f32, &str) -> bool + Send + Sync;
+
 /// Receives progress and answers whether to go on; cheap to clone, so that it can be handed into a solver.
 ///
 /// The fraction runs from 0 to 1; [`Self::part`] maps a step's own 0 to 1 into the whole.
 #[derive(Clone)]
 pub struct Watch {
-    listener: Arc<dyn Fn(f32, &str) -> bool + Send + Sync>,
+    listener: Arc<Listener>,
     executor: Arc<dyn Executor>,
     from: f32,
     to: f32,

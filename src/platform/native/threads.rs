@@ -47,7 +47,7 @@ impl Runner for ThreadRunner {
         let spawned = thread.spawn(move || {
             // the thread also wakes the screen when it unwinds: its closed channel is the message
             let woken = Arc::new(Wake(wake));
-            work(&request, sender, stopped, &woken);
+            work(&request, &sender, stopped, &woken);
         });
         if let Err(error) = spawned {
             let outcome = Outcome::Failed(format!("no thread could be started: {error}"));
@@ -101,7 +101,7 @@ impl Drop for Wake {
     }
 }
 
-fn work(request: &JobRequest, sender: Sender<Sent>, stop: Arc<AtomicBool>, wake: &Arc<Wake>) {
+fn work(request: &JobRequest, sender: &Sender<Sent>, stop: Arc<AtomicBool>, wake: &Arc<Wake>) {
     let report = {
         let (sender, wake) = (sender.clone(), Arc::clone(wake));
         move |reply| {
