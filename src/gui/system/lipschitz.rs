@@ -20,32 +20,30 @@ pub(super) fn show(
     out: &mut Output,
 ) {
     let PlantData::Descriptor(data) = &session.document().plant else { return };
-    let title = if data.lipschitz.is_some() { "Nonlinearity G f(x)" } else { "Nonlinearity: none" };
-    CollapsingHeader::new(RichText::new(title).strong())
-        .id_salt(("lipschitz", data.lipschitz.is_some()))
-        .default_open(data.lipschitz.is_some())
-        .show_unindented(ui, |ui| match &data.lipschitz {
-            None => {
-                formula::remark(
-                    ui,
-                    "For H-infinity observers: G f(x) with |f(a) - f(b)| <= lambda |F_L (a - b)|.",
-                );
-                if ui.button("Add a nonlinearity").clicked() {
-                    out.edit(Edit::Lipschitz(LipschitzEdit::Add));
-                }
+    let Some(lipschitz) = &data.lipschitz else {
+        ui.horizontal_wrapped(|ui| {
+            ui.label(RichText::new("Nonlinearity").strong());
+            let hint = "For H-infinity observers: G f(x) with |f(a) - f(b)| <= lambda |F_L (a - b)|";
+            if ui.button("Add a nonlinearity").on_hover_text(hint).clicked() {
+                out.edit(Edit::Lipschitz(LipschitzEdit::Add));
             }
-            Some(lipschitz) => {
-                sizes(ui, lipschitz, out);
-                components(ui, session, widgets, lipschitz, out);
-                constant(ui, session, widgets, lipschitz, out);
-                exceeded(ui, derived);
-                let f = |column: usize| format!("f{}", column + 1);
-                matrix(ui, session, widgets, ("G", LipschitzMatrix::G, &lipschitz.G, &f), out);
-                let x = |column: usize| format!("x{}", column + 1);
-                matrix(ui, session, widgets, ("F_L", LipschitzMatrix::Arguments, &lipschitz.F_L, &x), out);
-                if ui.button("Remove the nonlinearity").clicked() {
-                    out.edit(Edit::Lipschitz(LipschitzEdit::Remove));
-                }
+        });
+        return;
+    };
+    CollapsingHeader::new(RichText::new("Nonlinearity G f(x)").strong())
+        .id_salt("lipschitz")
+        .default_open(true)
+        .show_unindented(ui, |ui| {
+            sizes(ui, lipschitz, out);
+            components(ui, session, widgets, lipschitz, out);
+            constant(ui, session, widgets, lipschitz, out);
+            exceeded(ui, derived);
+            let f = |column: usize| format!("f{}", column + 1);
+            matrix(ui, session, widgets, ("G", LipschitzMatrix::G, &lipschitz.G, &f), out);
+            let x = |column: usize| format!("x{}", column + 1);
+            matrix(ui, session, widgets, ("F_L", LipschitzMatrix::Arguments, &lipschitz.F_L, &x), out);
+            if ui.button("Remove the nonlinearity").clicked() {
+                out.edit(Edit::Lipschitz(LipschitzEdit::Remove));
             }
         });
 }

@@ -2,7 +2,7 @@
 
 use egui::{CollapsingHeader, RichText, Sense, Ui, vec2};
 
-use super::super::{Output, formula, theme};
+use super::super::{Output, theme};
 use super::{decoupled, steps};
 use crate::document::{DescriptorData, EntryMatrix};
 use crate::session::{Edit, PartitionEdit, Session, Share};
@@ -11,24 +11,20 @@ use crate::system::{Subsystem, check_partition};
 /// Draws the subsystems, or a button that makes some.
 pub(super) fn show(ui: &mut Ui, session: &Session, data: &DescriptorData, out: &mut Output) {
     let partition = &data.partition;
-    let title = match partition.len() {
-        0 => "Subsystems: none".to_owned(),
-        count => format!("Subsystems: {count}"),
-    };
-    CollapsingHeader::new(RichText::new(title).strong())
-        .id_salt(("partition", partition.is_empty()))
-        .default_open(!partition.is_empty())
-        .show_unindented(ui, |ui| {
-            if partition.is_empty() {
-                formula::remark(
-                    ui,
-                    "For decentralized observers: E and C must be block diagonal, A may couple.",
-                );
-                if ui.button("Divide into subsystems").clicked() {
-                    out.edit(Edit::Partition(PartitionEdit::Split { subsystem: 0 }));
-                }
-                return;
+    if partition.is_empty() {
+        ui.horizontal_wrapped(|ui| {
+            ui.label(RichText::new("Subsystems").strong());
+            let hint = "For decentralized observers: E and C must be block diagonal, A may couple";
+            if ui.button("Divide into subsystems").on_hover_text(hint).clicked() {
+                out.edit(Edit::Partition(PartitionEdit::Split { subsystem: 0 }));
             }
+        });
+        return;
+    }
+    CollapsingHeader::new(RichText::new(format!("Subsystems: {}", partition.len())).strong())
+        .id_salt("partition")
+        .default_open(true)
+        .show_unindented(ui, |ui| {
             let rectangular = partition.iter().any(|s| s.states != s.equations);
             for k in 0..partition.len() {
                 ui.push_id(("subsystem", k), |ui| one(ui, partition, k, rectangular, out));
