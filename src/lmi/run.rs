@@ -17,6 +17,9 @@ const DECIDE: f64 = 1e-8;
 /// How far balanced variables may go at first.
 pub(super) const NARROW: f64 = 1e3;
 
+/// How far balanced variables may go when the widest problem cannot be decided.
+const MIDDLE: f64 = 3e4;
+
 /// How far balanced variables may go at all.
 pub(super) const WIDE: f64 = 1e6;
 
@@ -97,11 +100,22 @@ impl<'a> Run<'a> {
     }
 
     /// Phase 1: narrow first, because such a point is well conditioned, then wide.
+    ///
+    /// Where margins vanish along whole directions, points far out drown them in rounding: what cannot be decided there
+    /// is decided nearer.
     pub(super) fn interior(&mut self, step: &Step) -> Result<Candidate, Stop> {
-        if let Decision::Feasible(found) = self.decide(None, NARROW, Some(ZERO), step)? {
+        let near = self.decide(None, NARROW, Some(ZERO), step)?;
+        if let Decision::Feasible(found) = near {
             return Ok(found);
         }
-        match self.decide(None, WIDE, None, step)? {
+        let mut decision = self.decide(None, WIDE, None, step)?;
+        if matches!(decision, Decision::Undecided) {
+            decision = self.decide(None, MIDDLE, None, step)?;
+        }
+        if matches!(decision, Decision::Undecided) {
+            decision = near;
+        }
+        match decision {
             Decision::Feasible(found) => Ok(found),
             Decision::Infeasible { block, source, margin } => Err(Stop::Infeasible { block, source, margin }),
             Decision::Undecided => Err(self.bounds_alone(step)?),
