@@ -47,6 +47,8 @@ pub(super) fn demand(ui: &mut Ui, value: f64, demand: &Demand<'_>) -> Option<(f6
     let field = DragValue::new(&mut wanted)
         .speed(speed)
         .suffix(demand.suffix)
+        // what is typed counts as a whole: `2.5` is not first 2
+        .update_while_editing(false)
         .custom_formatter(|value, _| super::plot::short(value));
     let field = ui.add_sized([NUMBER, ui.spacing().interact_size.y], field);
     named(&field, &format!("{} value", demand.name));
