@@ -18,7 +18,9 @@ fn tolerance() -> Tolerance {
     Tolerance::default()
 }
 
+/// The time limit counts the clock, not the work: on a busy machine it would decide what is tested.
 fn choice(order: Order, lmi: LmiChoice) -> DesignChoice {
+    let lmi = LmiChoice { seconds: 3600.0, ..lmi };
     DesignChoice { method: Method::Decentralized, order, lmi, ..DesignChoice::default() }
 }
 
@@ -224,7 +226,8 @@ fn gain_on_a_grid(found: &Local) -> f64 {
 #[test]
 fn no_random_design_is_certified_falsely() {
     let mut random = Random::new(11);
-    let (mut designed, mut refused, mut unproved) = (0, 0, 0);
+    let (mut designed, mut refused) = (0, 0);
+    let mut unproved = Vec::new();
     for number in 0..64 {
         let time = if number % 2 == 0 { TimeDomain::Continuous } else { TimeDomain::Discrete };
         let problem = random_problem(&mut random, time);
@@ -245,17 +248,18 @@ fn no_random_design_is_certified_falsely() {
                 assert!(found.result.gain <= 100.1 * 1.5, "{number}: gain {}", found.result.gain);
                 designed += 1;
             }
-            Outcome::NotCertified { .. } | Outcome::GaveUp(_) => unproved += 1,
+            Outcome::NotCertified { why, .. } | Outcome::GaveUp(why) => {
+                unproved.push(format!("{number} {time:?} {order:?}: {why}"));
+            }
             Outcome::Infeasible(_) => refused += 1,
             Outcome::Cancelled => panic!("nobody cancels"),
         }
     }
-    println!("designed {designed}, refused {refused}, unproved {unproved}");
     assert!(
         designed >= 40,
         "most random subsystems have an observer: {designed} designed, {refused} refused"
     );
-    assert!(unproved <= 3, "{unproved} of 64 are without decision");
+    assert!(unproved.is_empty(), "without decision: {unproved:#?}");
 }
 
 #[test]
