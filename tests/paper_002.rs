@@ -347,8 +347,7 @@ fn demands_beyond_the_feasible_name_the_nearest_ones() {
     assert!(nearest.feasible > 1.0 && nearest.feasible < 10.0, "{found:?}");
     // the answer is feasible when it is asked for
     steep.lipschitz.as_mut().unwrap().constant = nearest.feasible;
-    let again =
-        assess(&steep, &choice("reduced", LmiChoice::default()), &tolerance(), &Watch::none()).unwrap();
+    let again = assessed(&steep, &fast);
     assert!(again.outcome.is_ok(), "lambda = {}: {:?}", nearest.feasible, again.outcome);
 }
 

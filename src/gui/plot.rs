@@ -283,6 +283,17 @@ pub fn short(value: f64) -> String {
     }
 }
 
+/// A guaranteed bound in the same digits, never below `value`.
+pub fn short_up(value: f64) -> String {
+    let nearest = short(value);
+    if nearest.parse::<f64>().is_ok_and(|shown| shown >= value) {
+        return nearest;
+    }
+    // one unit of the last digit that is shown
+    let digits = if (1e-3..1e5).contains(&value.abs()) { 3.0 } else { 2.0 };
+    short(value + 10_f64.powf(value.abs().log10().floor() - digits))
+}
+
 /// A tick of a linear axis.
 fn tick(value: f64) -> String {
     let magnitude = value.abs();

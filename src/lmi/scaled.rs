@@ -171,7 +171,7 @@ fn check_size(problem: &Problem, settings: &Settings) -> Result<(), Stop> {
     let limit = settings.most_rows;
     Err(Stop::GaveUp(format!(
         "The inequalities have {rows} rows (upper triangles of all blocks), the limit is {limit}: reduce the order, \
-         divide the plant into subsystems or raise the limit"
+         or divide the plant into subsystems"
     )))
 }
 

@@ -2,7 +2,11 @@
 
 use egui::{Color32, RichText, Ui};
 
-use super::super::{Output, formula, plot::short, theme};
+use super::super::{
+    Output, formula,
+    plot::{short, short_up},
+    theme,
+};
 use crate::document::PlantData;
 use crate::lmi::{Infeasible, Nearest};
 use crate::observer::{Assessment, Design, DesignError, Method};
@@ -49,7 +53,7 @@ fn framed(ui: &mut Ui, colour: Color32, word: &str, sentence: &str) {
 
 fn made(ui: &Ui, design: &Design, examined: bool) -> (Color32, &'static str, String) {
     let gammas: Vec<String> =
-        design.synthesis.lmi().iter().filter_map(|result| result.gamma).map(short).collect();
+        design.synthesis.lmi().iter().filter_map(|result| result.gamma).map(short_up).collect();
     let title = if gammas.is_empty() {
         design.title.clone()
     } else {

@@ -56,16 +56,20 @@ const SWITCH_OFF: &str = "Off: the error only has to vanish, however slowly.";
 fn rate(ui: &mut Ui, lmi: &LmiChoice, results: &[LmiResult], emit: &mut impl FnMut(LmiEdit)) {
     const FIRST: f64 = 0.5;
     const SLIDER: [f64; 2] = [0.01, 100.0];
+    // slow fixed modes: the slider begins well below them, and the first demand is half of what they allow
+    let fastest = limit(results, f64::min);
+    let first = fastest.map_or(FIRST, |fastest| FIRST.min(0.5 * fastest));
+    let lowest = fastest.map_or(SLIDER[0], |fastest| SLIDER[0].min(0.01 * fastest));
     let hint = "Decay rate alpha in 1/s: every mode of the error satisfies Re s < -alpha.";
     line(ui, |ui| {
         if let Some(on) = switch(ui, lmi.decay.is_some(), "Decay rate", SWITCH_OFF) {
-            emit(LmiEdit::Decay { decay: on.then_some(FIRST), done: true });
+            emit(LmiEdit::Decay { decay: on.then_some(first), done: true });
         }
         let Some(decay) = lmi.decay else {
             formula::remark(ui, "stability alone");
             return;
         };
-        let beyond = limit(results, f64::min).map(|limit| {
+        let beyond = fastest.map(|limit| {
             (
                 limit..=SLIDER[1],
                 format!("A fixed mode is no faster than {}: grey cannot be reached.", short(limit)),
@@ -73,7 +77,7 @@ fn rate(ui: &mut Ui, lmi: &LmiChoice, results: &[LmiResult], emit: &mut impl FnM
         });
         let asked = Demand {
             name: "Decay rate",
-            range: SLIDER[0]..=SLIDER[1],
+            range: lowest..=SLIDER[1],
             logarithmic: true,
             suffix: " /s",
             hint,

@@ -2,7 +2,11 @@
 
 use egui::{RichText, Sense, Stroke, Ui, vec2};
 
-use super::super::{formula, plot::short, theme};
+use super::super::{
+    formula,
+    plot::{short, short_up},
+    theme,
+};
 use crate::observer::{LmiResult, show as show_number};
 
 /// Draws a card for each subsystem.
@@ -32,7 +36,7 @@ fn one(ui: &mut Ui, result: &LmiResult, subsystem: Option<usize>) {
             ui.label(subsystem.map_or(name.clone(), |k| name.color(theme::series(ui, k))));
         }
         if let Some(gamma) = result.gamma {
-            ui.label(RichText::new(format!("gamma {}", short(gamma))).strong().size(17.0));
+            ui.label(RichText::new(format!("gamma {}", short_up(gamma))).strong().size(17.0));
         }
         let word = if proved { "proved" } else { "not proved" };
         ui.label(RichText::new(word).color(colour).strong());

@@ -51,7 +51,7 @@ pub fn design_local(
         return Ok(Outcome::Infeasible(Infeasible {
             block: format!("fixed modes {} ({})", modes.join(", "), problem.name),
             source: "paper 000, (27)".to_owned(),
-            margin: -1.0,
+            margin: 0.0,
             nearest: Vec::new(),
         }));
     }
@@ -181,7 +181,12 @@ fn finish(
         iterations: solved.iterations,
         certificate,
     };
-    let why = if result.certificate.proved { None } else { Some(result.certificate.note.clone()) };
+    let failed = verification.failures().next();
+    let why = match failed {
+        _ if !result.certificate.proved => Some(result.certificate.note.clone()),
+        Some(check) => Some(format!("the check of {} fails: {}", check.name, check.statement)),
+        None => None,
+    };
     let local = Local {
         setup,
         matrices,

@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 use super::parameterisation::Matrices;
 use super::plant::Plant;
 use crate::lmi::certificate::{Interval, IntervalMatrix, lower_bound, proved_positive_definite};
-use crate::observer::Certificate;
+use crate::observer::{Certificate, rounded_up};
 
 /// What is to be proved of an observer.
 #[derive(Clone, Debug)]
@@ -60,7 +60,8 @@ pub(super) fn certify(plant: &Plant, observer: &Matrices, candidate: &Candidate)
     }
     let proved = missing.is_empty();
     let note = if proved {
-        "Interval evaluation of the inequality from the observer's matrices, and Rump's Cholesky test"
+        "Interval evaluation of the inequality from the observer's matrices, and Rump's Cholesky test, for the error \
+         system that the design equations give; these hold to the residuals of the verification"
             .to_owned()
     } else {
         format!(
@@ -113,7 +114,9 @@ fn statement(plant: &Plant, candidate: &Candidate, acts: bool) -> String {
     if plant.system.n_unknown_inputs() == 0 {
         return format!("the error decays{for_all}{speed}");
     }
+    let gamma = rounded_up(*gamma);
     format!(
-        "energy of the error <= {gamma:.6}^2 x energy of the disturbance{for_all}; without disturbance the error decays{speed}"
+        "from zero initial error, energy of the error <= {gamma}^2 x energy of the disturbance{for_all}; without \
+         disturbance the error decays{speed}"
     )
 }

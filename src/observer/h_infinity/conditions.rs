@@ -230,13 +230,16 @@ const SEED: u64 = 2;
 /// Whether samples of the nonlinearity keep its Lipschitz constant; no design is refused for it.
 fn lipschitz(model: &Model, tolerance: &Tolerance) -> Result<Option<Condition>, NumericsError> {
     let Some(term) = model.lipschitz.as_ref().filter(|term| !term.f.is_empty()) else { return Ok(None) };
-    let mut steepest: Option<SampledConstant> = None;
+    let (mut steepest, mut undefined): (Option<SampledConstant>, Option<String>) = (None, None);
     for reach in REACHES {
         let corner = DVector::from_element(model.system.n_states(), reach);
         let region = SampleRegion::Box { lower: -&corner, upper: corner, time: (0.0, reach) };
         let found = term.sampled_constant(&region, SAMPLES, SEED, tolerance)?;
+        if undefined.is_none() && found.undefined.is_some() {
+            undefined = Some(found.statement());
+        }
         if steepest.as_ref().is_none_or(|known| found.largest > known.largest) {
-            steepest = Some(found);
+            steepest = Some(SampledConstant { undefined: None, ..found });
         }
     }
     let Some(found) = steepest else { return Ok(None) };
@@ -244,8 +247,14 @@ fn lipschitz(model: &Model, tolerance: &Tolerance) -> Result<Option<Condition>, 
         condition("lipschitz", "(3)", "Lipschitz constant", "|f(x1) - f(x2)| <= lambda |F_L (x1 - x2)|");
     result.source = format!("{PAPER}, section 2");
     result.needed = false;
-    result.verdict = Verdict::of(!found.exceeded, false);
     result.summary = format!("{} (samples can refute a constant, not prove it)", found.statement());
+    result.verdict = Verdict::of(!found.exceeded, false);
+    if let Some(where_not) = undefined {
+        result.summary = format!("{where_not}; elsewhere {}", result.summary);
+        if result.verdict.holds() {
+            result.verdict = Verdict::Undecided;
+        }
+    }
     if found.largest.is_infinite() {
         result.remedies.push("add the states that f depends on to F_L".to_owned());
     } else if found.exceeded {

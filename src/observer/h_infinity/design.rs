@@ -123,12 +123,12 @@ pub(super) fn solve(
 /// `Z = X^-1 W`.
 fn recovered(posed: &Posed, found: &Found, demands: &Demands) -> Result<Solved, Stop> {
     let (X, W) = (found.point.value(&posed.X), found.point.value(&posed.W));
-    let Z = if X.is_empty() { DMatrix::zeros(0, W.ncols()) } else { X.clone().lu().solve(&W).unwrap_or(W) };
-    if Z.iter().any(|x| !x.is_finite()) {
+    let Z = if X.is_empty() { Some(DMatrix::zeros(0, W.ncols())) } else { X.clone().lu().solve(&W) };
+    let Some(Z) = Z.filter(|Z| Z.iter().all(|x| x.is_finite())) else {
         return Err(Stop::GaveUp(
             "the Lyapunov matrix X is singular: lower the bound on its condition".to_owned(),
         ));
-    }
+    };
     let gamma = posed.gamma2.as_ref().map(|gamma2| found.point.scalar(gamma2).max(0.0).sqrt());
     Ok(Solved {
         X,

@@ -30,6 +30,12 @@ impl Rows {
         choice: &DesignChoice,
         tolerance: &Tolerance,
     ) -> Result<Result<Self, String>, NumericsError> {
+        if choice.lmi.rows.len() > 1 {
+            return Ok(Err(format!(
+                "{} matrices R are given, but this method designs one observer and takes one",
+                choice.lmi.rows.len()
+            )));
+        }
         let given = choice.lmi.rows.first();
         let R = match given {
             Some(R) => R.clone(),
