@@ -198,7 +198,11 @@ fn the_design_is_proved_a_step_back_and_not_at_the_optimum() {
         assert!(result.contraction.is_none_or(|factor| factor < 1.0), "{order}: {:?}", result.contraction);
         let edge = designed(order, LmiChoice { back_off: 1e-13, ..LmiChoice::default() });
         let edge = edge.synthesis.lmi()[0].clone();
-        assert!(!edge.certificate.proved, "{order}: nothing is strict on the boundary, {edge:#?}");
+        // nothing is strict on the boundary: what is proved there can only be a gamma that the solver left above it
+        let least =
+            reference()["orders"][order]["min_gamma2"]["decay_None"]["CLARABEL_slack"].as_f64().unwrap();
+        let sound = !edge.certificate.proved || edge.gamma.unwrap() > least.sqrt() * (1.0 - 1e-9);
+        assert!(sound, "{order}: {edge:#?} is below the optimum {}", least.sqrt());
     }
 }
 

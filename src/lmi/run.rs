@@ -17,8 +17,9 @@ const DECIDE: f64 = 1e-8;
 /// How far balanced variables may go at first.
 pub(super) const NARROW: f64 = 1e3;
 
-/// How far balanced variables may go when the widest problem cannot be decided.
-const MIDDLE: f64 = 3e4;
+/// How far balanced variables may go when the widest problem cannot be decided, one after the other: where rounding
+/// stops the solver in one box it seldom does in the next.
+const BETWEEN: [f64; 4] = [3e4, 2e5, 5e3, 6e2];
 
 /// How far balanced variables may go at all.
 pub(super) const WIDE: f64 = 1e6;
@@ -109,8 +110,10 @@ impl<'a> Run<'a> {
             return Ok(found);
         }
         let mut decision = self.decide(None, WIDE, None, step)?;
-        if matches!(decision, Decision::Undecided) {
-            decision = self.decide(None, MIDDLE, None, step)?;
+        for width in BETWEEN {
+            if matches!(decision, Decision::Undecided) {
+                decision = self.decide(None, width, None, step)?;
+            }
         }
         if matches!(decision, Decision::Undecided) {
             decision = near;

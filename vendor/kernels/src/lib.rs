@@ -1,4 +1,4 @@
-//! Dense products and factorisations over faer, for `f32` and `f64`.
+//! Dense products, and factorisations over faer, for `f32` and `f64`.
 //!
 //! clarabel's semidefinite cones call the crates `blas` and `lapack`, which bind to system libraries that WebAssembly
 //! does not have. The stand-ins in `vendor/blas` and `vendor/lapack` keep those signatures and translate them to this
@@ -16,7 +16,7 @@ pub use products::{multiply, multiply_symmetric, multiply_triangle};
 pub use view::{Triangle, matrix, matrix_mut, size};
 
 /// `f32` or `f64`.
-pub trait Real: faer::traits::RealField + num_traits::Float {}
+pub trait Real: faer::traits::RealField + num_traits::Float + std::ops::AddAssign {}
 
 impl Real for f32 {}
 impl Real for f64 {}

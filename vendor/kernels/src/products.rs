@@ -1,8 +1,9 @@
-//! Products.
+//! Products, in plain loops down the columns.
+//!
+//! Not faer's: after its kernels the solver's own factorisation took more than twice as long, and these matrices are
+//! too small to win that back.
 
-use faer::linalg::matmul::triangular::BlockStructure;
-use faer::linalg::matmul::{matmul, triangular};
-use faer::{Accum, MatMut, MatRef, Par};
+use faer::{Mat, MatMut, MatRef};
 
 use crate::{Real, Triangle};
 
@@ -10,9 +11,9 @@ use crate::{Real, Triangle};
 ///
 /// # Panics
 /// When the shapes do not fit: a mistake of the caller.
-pub fn multiply<T: Real>(mut c: MatMut<'_, T>, a: MatRef<'_, T>, b: MatRef<'_, T>, alpha: T, beta: T) {
-    let accumulate = prepare(c.as_mut(), beta, |_, _| true);
-    matmul(c, accumulate, a, b, alpha, Par::Seq);
+pub fn multiply<T: Real>(c: MatMut<'_, T>, a: MatRef<'_, T>, b: MatRef<'_, T>, alpha: T, beta: T) {
+    let rows = c.nrows();
+    accumulate(c, (&a.to_owned(), b), alpha, beta, |_| (0, rows));
 }
 
 /// One half of `C = alpha A B + beta C` for a square `C`; see [`multiply`].
@@ -21,17 +22,16 @@ pub fn multiply<T: Real>(mut c: MatMut<'_, T>, a: MatRef<'_, T>, b: MatRef<'_, T
 /// As [`multiply`].
 pub fn multiply_triangle<T: Real>(
     half: Triangle,
-    mut c: MatMut<'_, T>,
+    c: MatMut<'_, T>,
     (a, b): (MatRef<'_, T>, MatRef<'_, T>),
     alpha: T,
     beta: T,
 ) {
-    let accumulate = prepare(c.as_mut(), beta, |i, j| match half {
-        Triangle::Lower => i >= j,
-        Triangle::Upper => i <= j,
+    let rows = c.nrows();
+    accumulate(c, (&a.to_owned(), b), alpha, beta, |j| match half {
+        Triangle::Lower => (j, rows),
+        Triangle::Upper => (0, j + 1),
     });
-    let full = BlockStructure::Rectangular;
-    triangular::matmul(c, structure(half), accumulate, a, full, b, full, alpha, Par::Seq);
 }
 
 /// `C = alpha S B + beta C` for a symmetric `S` of which one half is given; see [`multiply`].
@@ -40,37 +40,52 @@ pub fn multiply_triangle<T: Real>(
 /// As [`multiply`].
 pub fn multiply_symmetric<T: Real>(
     half: Triangle,
-    mut c: MatMut<'_, T>,
+    c: MatMut<'_, T>,
     (s, b): (MatRef<'_, T>, MatRef<'_, T>),
     alpha: T,
     beta: T,
 ) {
-    let accumulate = prepare(c.as_mut(), beta, |_, _| true);
-    let full = BlockStructure::Rectangular;
-    let other = match half {
-        Triangle::Lower => BlockStructure::StrictTriangularUpper,
-        Triangle::Upper => BlockStructure::StrictTriangularLower,
-    };
-    triangular::matmul(c.as_mut(), full, accumulate, s, structure(half), b, full, alpha, Par::Seq);
-    triangular::matmul(c, full, Accum::Add, s.transpose(), other, b, full, alpha, Par::Seq);
+    let rows = c.nrows();
+    let full = Mat::from_fn(s.nrows(), s.ncols(), |i, j| {
+        let (low, high) = (i.max(j), i.min(j));
+        if half == Triangle::Lower { s[(low, high)] } else { s[(high, low)] }
+    });
+    accumulate(c, (&full, b), alpha, beta, |_| (0, rows));
 }
 
-fn structure(half: Triangle) -> BlockStructure {
-    match half {
-        Triangle::Lower => BlockStructure::TriangularLower,
-        Triangle::Upper => BlockStructure::TriangularUpper,
-    }
-}
-
-/// Scales the part of `C` that is written by `beta`, and says whether the product replaces it.
-fn prepare<T: Real>(mut c: MatMut<'_, T>, beta: T, written: impl Fn(usize, usize) -> bool) -> Accum {
-    if beta == <T as num_traits::Zero>::zero() {
-        return Accum::Replace;
-    }
+/// `C = alpha A B + beta C` in the rows from and to `range(j)` of each column `j`.
+fn accumulate<T: Real>(
+    mut c: MatMut<'_, T>,
+    (a, b): (&Mat<T>, MatRef<'_, T>),
+    alpha: T,
+    beta: T,
+    range: impl Fn(usize) -> (usize, usize),
+) {
+    let inner = a.ncols();
+    assert!(
+        (c.nrows(), c.ncols(), inner) == (a.nrows(), b.ncols(), b.nrows()),
+        "a {} x {inner} matrix times a {} x {} one into {} x {}",
+        a.nrows(),
+        b.nrows(),
+        b.ncols(),
+        c.nrows(),
+        c.ncols()
+    );
+    let zero = <T as num_traits::Zero>::zero();
+    let mut sum = vec![zero; a.nrows()];
     for j in 0..c.ncols() {
-        for i in (0..c.nrows()).filter(|i| written(*i, j)) {
-            c[(i, j)] = beta * c[(i, j)];
+        let (from, to) = range(j);
+        let sum = &mut sum[from..to];
+        sum.fill(zero);
+        for k in 0..inner {
+            let factor = alpha * b[(k, j)];
+            let column = &a.col_as_slice(k)[from..to];
+            for (total, entry) in sum.iter_mut().zip(column) {
+                *total += factor * *entry;
+            }
+        }
+        for (i, total) in (from..to).zip(&*sum) {
+            c[(i, j)] = if beta == zero { *total } else { *total + beta * c[(i, j)] };
         }
     }
-    Accum::Add
 }
