@@ -52,8 +52,41 @@ impl fmt::Display for Infeasible {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "the inequalities have no solution: {} ({}) stops them", self.block, self.source)?;
         for Nearest { quantity, asked, feasible } in &self.nearest {
-            write!(f, "; {quantity} {asked:.4} is asked, {feasible:.4} is feasible")?;
+            let (asked, feasible) = (digits(*asked), towards(*feasible, *asked < *feasible));
+            write!(f, "; {quantity} {asked} is asked, {feasible} is feasible")?;
         }
         Ok(())
+    }
+}
+
+/// Five significant digits.
+fn digits(x: f64) -> f64 {
+    format!("{x:.4e}").parse().unwrap_or(x)
+}
+
+/// Five significant digits on the feasible side: rounded up or down, never to what is not feasible.
+fn towards(x: f64, up: bool) -> f64 {
+    let nearest = digits(x);
+    if (up && nearest >= x) || (!up && nearest <= x) || x == 0.0 || !x.is_finite() {
+        return nearest;
+    }
+    let unit = 10.0_f64.powf(x.abs().log10().floor() - 4.0);
+    digits(if up { x + unit } else { x - unit })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_advice_is_rounded_to_the_feasible_side() {
+        let nearest = |asked, feasible| {
+            let nearest = vec![Nearest { quantity: "gamma".to_owned(), asked, feasible }];
+            Infeasible { nearest, ..Infeasible::default() }.to_string()
+        };
+        let text = nearest(1e-3, 0.002_004_008_01);
+        assert!(text.ends_with("gamma 0.001 is asked, 0.0020041 is feasible"), "up: {text}");
+        let text = nearest(3.0, 0.993_456_78);
+        assert!(text.ends_with("gamma 3 is asked, 0.99345 is feasible"), "down: {text}");
     }
 }

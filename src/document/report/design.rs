@@ -8,7 +8,7 @@ use crate::observer::{
     Assessment, Check, Design, DesignError, Injection, LinearObserver, LmiResult, Synthesis, Verification,
 };
 
-/// The outcome of a choice: `verified`, `not verified`, `does not exist` or `bad input`.
+/// The outcome of a choice: `verified`, `not verified`, `does not exist`, `undecided`, `cancelled` or `bad input`.
 pub(super) fn design(assessment: &Assessment) -> Value {
     let choice = &assessment.choice;
     let mut map = Map::new();
@@ -19,6 +19,8 @@ pub(super) fn design(assessment: &Assessment) -> Value {
         Ok(design) if design.verification.verified() => "verified",
         Ok(_) => "not verified",
         Err(error) if error.is_bad_input() => "bad input",
+        Err(DesignError::GaveUp(_) | DesignError::Numerics(_)) => "undecided",
+        Err(DesignError::Cancelled) => "cancelled",
         Err(_) => "does not exist",
     };
     put("verdict", json!(verdict));

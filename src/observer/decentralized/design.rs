@@ -60,7 +60,10 @@ pub fn design(
             .flat_map(|local| local.skipped.iter().map(|why| format!("{}: {why}", local.result.name)))
             .collect(),
     };
-    let notes = unproved.into_iter().chain(notes(&locals)).collect();
+    let ignored = choice.lmi.given.is_some().then(|| {
+        "an observer to examine is given, but only the H-infinity observer is examined: this one is designed".to_owned()
+    });
+    let notes = unproved.into_iter().chain(ignored).chain(notes(&locals)).collect();
     Ok(Design {
         title,
         matrices: matrices(&locals),

@@ -112,9 +112,16 @@ pub fn local_problems(model: &Model) -> Result<Vec<LocalProblem>, CutError> {
     }
     let (mut row, mut state, mut output) = (0, 0, 0);
     let mut result = Vec::with_capacity(partition.len());
-    for part in partition {
+    for (index, part) in partition.iter().enumerate() {
+        let taken = |name: &str| partition.iter().filter(|other| other.name == name).count() > 1;
+        // names tell matrices and checks apart
+        let name = match part.name.as_str() {
+            "" => (index + 1).to_string(),
+            name if taken(name) => format!("{name} {}", index + 1),
+            name => name.to_owned(),
+        };
         let place = Place {
-            name: &part.name,
+            name: &name,
             rows: (row, part.equations),
             states: (state, part.states),
             outputs: (output, part.outputs),
@@ -234,6 +241,21 @@ mod tests {
         model.system.F[(1, 0)] = 1.0;
         let error = local_problems(&model).unwrap_err();
         assert!(error.to_string().starts_with("F[2, 1] is not zero"), "{error}");
+    }
+
+    #[test]
+    fn subsystems_without_a_name_of_their_own_are_numbered() {
+        let mut model = model();
+        for part in &mut model.partition {
+            part.name = String::new();
+        }
+        let names =
+            |model: &Model| local_problems(model).unwrap().into_iter().map(|p| p.name).collect::<Vec<_>>();
+        assert_eq!(names(&model), ["1", "2"], "no name: the number");
+        for part in &mut model.partition {
+            part.name = "tank".to_owned();
+        }
+        assert_eq!(names(&model), ["tank 1", "tank 2"], "the same name: told apart by the number");
     }
 
     #[test]

@@ -190,17 +190,17 @@ fn stabilisability(
             format!("the mode {} is fixed by R and not stable", show(mode.value))
         }
         (Some(mode), _) => {
-            let fastest = -mode.value.re;
-            result.remedies.push(format!("ask for a decay below {fastest:.4}, or choose another R"));
+            let fastest = show(Complex64::from(-mode.value.re));
+            result.remedies.push(format!("ask for a decay below {fastest}, or choose another R"));
             format!(
-                "the mode {} is fixed by R: the decay {asked:.4} is asked, less than {fastest:.4} is possible",
+                "the mode {} is fixed by R: the decay {asked} is asked, less than {fastest} is possible",
                 show(mode.value)
             )
         }
         (None, Some(mode)) => format!(
-            "{} fixed modes, all of them fast enough; the fastest decay that they allow is {:.4}",
+            "{} fixed modes, all of them fast enough; the fastest decay that they allow is {}",
             split.fixed_modes.len(),
-            -mode.value.re
+            show(Complex64::from(-mode.value.re))
         ),
         (None, None) => format!("no fixed modes: all {} modes can be moved", family.order()),
     };
@@ -224,6 +224,8 @@ fn stabilisability(
 const REACHES: [f64; 3] = [1.0, 10.0, 100.0];
 /// States in each box.
 const SAMPLES: usize = 48;
+/// Constants beyond this are of no use to a design.
+const STEEPEST: f64 = 1e6;
 /// Seed of the samples, so that a verdict does not change from one look to the next.
 const SEED: u64 = 2;
 
@@ -257,6 +259,11 @@ fn lipschitz(model: &Model, tolerance: &Tolerance) -> Result<Option<Condition>, 
     }
     if found.largest.is_infinite() {
         result.remedies.push("add the states that f depends on to F_L".to_owned());
+    } else if found.largest > STEEPEST {
+        result.remedies.push(
+            "no usable constant covers the states that were sampled: the guarantee can only hold in a smaller region"
+                .to_owned(),
+        );
     } else if found.exceeded {
         result.remedies.push(format!(
             "use a constant of at least {:.4}, or keep in mind that the guarantee holds only where f is less steep",
