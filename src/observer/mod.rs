@@ -3,6 +3,7 @@
 mod choice;
 mod condition;
 mod design;
+pub mod input_decoupled;
 mod lmi_choice;
 pub mod proportional;
 pub mod proportional_integral;
