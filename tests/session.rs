@@ -6,11 +6,12 @@ use std::collections::BTreeSet;
 
 use descry::document::{Document, EntryMatrix, Matrix, PlantData, read_document, write_document};
 use descry::numerics::{Complex64, Watch};
-use descry::observer::{Method, Order, Verdict};
+use descry::observer::{GivenObserver, Method, Order, Verdict};
 use descry::paper::EXAMPLES;
 use descry::session::{
-    Analysis, Cell, Command, Derived, Edit, Field, Fill, JobReply, JobRequest, Outcome, Session, Show,
-    SignalList, Size, Tab, Task, perform, update,
+    Analysis, Cell, Command, Derived, Edit, Field, Fill, GivenPart, JobReply, JobRequest, LipschitzEdit,
+    LipschitzMatrix, LmiEdit, Outcome, PartitionEdit, Session, Share, Show, SignalList, Size, Tab, Task,
+    perform, update,
 };
 use descry::system::TimeDomain;
 use proptest::prelude::*;
@@ -431,6 +432,73 @@ fn a_design_edit() -> impl Strategy<Value = Edit> {
     ]
 }
 
+fn an_lmi_edit() -> impl Strategy<Value = Edit> {
+    let maybe = || prop::option::of(number());
+    let rows = (1..4_usize, 1..7_usize).prop_map(|(r, c)| nalgebra::DMatrix::identity(r, c));
+    let given = (1..4_usize, 0..4_usize).prop_map(|(q, p)| GivenObserver {
+        N: nalgebra::DMatrix::identity(q, q),
+        J: nalgebra::DMatrix::zeros(q, p),
+        gamma: None,
+    });
+    let texts = prop_oneof![Just("[-1 2; 0 -3]".to_owned()), Just("[1; 2]".to_owned()), typed()];
+    let part = prop::sample::select(vec![GivenPart::N, GivenPart::J, GivenPart::Gamma]);
+    let lists = prop::option::of(prop::collection::vec(prop::collection::vec(0..6_usize, 0..3), 0..4));
+    prop_oneof![
+        (maybe(), any::<bool>()).prop_map(|(decay, done)| LmiEdit::Decay { decay, done }),
+        (maybe(), any::<bool>()).prop_map(|(gain, done)| LmiEdit::Gain { gain, done }),
+        (maybe(), any::<bool>()).prop_map(|(gamma, done)| LmiEdit::Gamma { gamma, done }),
+        (number(), any::<bool>())
+            .prop_map(|(conditioning, done)| LmiEdit::Conditioning { conditioning, done }),
+        (number(), any::<bool>()).prop_map(|(back_off, done)| LmiEdit::BackOff { back_off, done }),
+        (number(), any::<bool>()).prop_map(|(seconds, done)| LmiEdit::Seconds { seconds, done }),
+        any::<bool>().prop_map(LmiEdit::Alternative),
+        prop::collection::vec(rows, 0..3).prop_map(LmiEdit::Rows),
+        (0..3_usize, 0..3_usize, 0..6_usize, typed()).prop_map(|(subsystem, row, column, text)| {
+            LmiEdit::RowsCell { subsystem, row, column, text }
+        }),
+        (0..3_usize, texts.clone()).prop_map(|(subsystem, text)| LmiEdit::RowsPaste { subsystem, text }),
+        lists.prop_map(LmiEdit::Decoupled),
+        (0..3_usize, 0..8_usize, any::<bool>()).prop_map(|(subsystem, state, exactly)| LmiEdit::Decouple {
+            subsystem,
+            state,
+            exactly
+        }),
+        prop::option::of(given).prop_map(LmiEdit::Examine),
+        (part, texts).prop_map(|(part, text)| LmiEdit::Given { part, text }),
+    ]
+    .prop_map(Edit::Lmi)
+}
+
+fn a_partition_edit() -> impl Strategy<Value = Edit> {
+    let share = prop::sample::select(vec![Share::States, Share::Equations, Share::Outputs]);
+    prop_oneof![
+        3 => (0..4_usize).prop_map(|subsystem| PartitionEdit::Split { subsystem }),
+        1 => (0..4_usize).prop_map(|subsystem| PartitionEdit::Join { subsystem }),
+        1 => Just(PartitionEdit::Clear),
+        1 => (0..4_usize, ".{0,9}").prop_map(|(subsystem, name)| PartitionEdit::Name { subsystem, name }),
+        4 => (0..3_usize, share, 0..8_usize, any::<bool>()).prop_map(|(border, share, to, done)| {
+            PartitionEdit::Move { border, share, to, done }
+        }),
+    ]
+    .prop_map(Edit::Partition)
+}
+
+fn a_lipschitz_edit() -> impl Strategy<Value = Edit> {
+    let matrix = || prop::sample::select(vec![LipschitzMatrix::G, LipschitzMatrix::Arguments]);
+    let f = prop_oneof![Just("sin(x2)+x3".to_owned()), Just("x1*cos(t)".to_owned()), typed()];
+    prop_oneof![
+        2 => Just(LipschitzEdit::Add),
+        1 => Just(LipschitzEdit::Remove),
+        2 => (matrix(), 0..4_usize, 0..6_usize, typed()).prop_map(|(matrix, row, column, text)| {
+            LipschitzEdit::Cell { matrix, row, column, text }
+        }),
+        3 => (0..3_usize, f).prop_map(|(index, text)| LipschitzEdit::Component { index, text }),
+        1 => typed().prop_map(LipschitzEdit::Constant),
+        2 => (matrix(), any::<bool>()).prop_map(|(of, grow)| LipschitzEdit::Size { of, grow }),
+    ]
+    .prop_map(Edit::Lipschitz)
+}
+
 fn a_scenario_edit() -> impl Strategy<Value = Edit> {
     let list = prop::sample::select(vec![SignalList::Known, SignalList::Unknown, SignalList::Noise]);
     prop_oneof![
@@ -451,6 +519,9 @@ fn a_command() -> impl Strategy<Value = Command> {
     prop_oneof![
         6 => a_plant_edit().prop_map(Command::Edit),
         4 => a_design_edit().prop_map(Command::Edit),
+        3 => an_lmi_edit().prop_map(Command::Edit),
+        3 => a_partition_edit().prop_map(Command::Edit),
+        3 => a_lipschitz_edit().prop_map(Command::Edit),
         4 => a_scenario_edit().prop_map(Command::Edit),
         1 => Just(Command::Undo),
         1 => Just(Command::Redo),

@@ -16,14 +16,14 @@ pub(super) fn jumps(program: &Program, time: usize, variables: usize, interval: 
         return Vec::new();
     }
     let mut values = vec![f64::NAN; variables];
-    let mut instants: Vec<f64> = switches(program, time)
+    let mut instants: Vec<f64> = switches(program, time, has_branches)
         .iter()
         .flat_map(|switch| {
             let branch = |t: f64| {
                 values[time] = t;
                 switch.branch(program, &values)
             };
-            Search { branch, found: Vec::new() }.over(from, to)
+            Search::new(branch).over(from, to)
         })
         .collect();
     for instant in &mut instants {
@@ -37,17 +37,17 @@ pub(super) fn jumps(program: &Program, time: usize, variables: usize, interval: 
 }
 
 /// An operation that has branches, and the code of its operands.
-struct Switch<'a> {
-    operation: Operation,
-    operands: Vec<&'a [Instruction]>,
+pub(super) struct Switch<'a> {
+    pub(super) operation: Operation,
+    pub(super) operands: Vec<&'a [Instruction]>,
 }
 
-/// All operations whose branch is decided by time alone.
-fn switches(program: &Program, time: usize) -> Vec<Switch<'_>> {
+/// All operations of a kind whose branch is decided by time alone.
+pub(super) fn switches(program: &Program, time: usize, is_kind: fn(Operation) -> bool) -> Vec<Switch<'_>> {
     let mut found = Vec::new();
     for (index, instruction) in program.code.iter().enumerate() {
         let Instruction::Operation(operation) = *instruction else { continue };
-        if !has_branches(operation) {
+        if !is_kind(operation) {
             continue;
         }
         let mut operands = Vec::new();
@@ -81,9 +81,14 @@ fn has_branches(operation: Operation) -> bool {
 }
 
 impl Switch<'_> {
+    /// The value of an operand.
+    pub(super) fn operand(&self, k: usize, program: &Program, values: &[f64]) -> f64 {
+        self.operands.get(k).map_or(0.0, |code| program.part(code, values))
+    }
+
     /// A number that changes where the branch does.
     fn branch(&self, program: &Program, values: &[f64]) -> f64 {
-        let operand = |k: usize| self.operands.get(k).map_or(0.0, |code| program.part(code, values));
+        let operand = |k: usize| self.operand(k, program, values);
         let branch = match self.operation {
             Operation::Unary(operation) => unary_branch(operation, operand(0)),
             Operation::Binary(operation) => binary_branch(operation, operand(0), operand(1)),
@@ -97,13 +102,17 @@ impl Switch<'_> {
 }
 
 /// Looks for the changes of one branch, from left to right.
-struct Search<F> {
+pub(super) struct Search<F> {
     branch: F,
     found: Vec<f64>,
 }
 
 impl<F: FnMut(f64) -> f64> Search<F> {
-    fn over(mut self, from: f64, to: f64) -> Vec<f64> {
+    pub(super) fn new(branch: F) -> Self {
+        Self { branch, found: Vec::new() }
+    }
+
+    pub(super) fn over(mut self, from: f64, to: f64) -> Vec<f64> {
         let step = (to - from) / f64::from(CELLS);
         let mut left = (from, (self.branch)(from));
         for cell in 1..=CELLS {

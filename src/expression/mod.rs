@@ -15,6 +15,7 @@
 mod error;
 mod function;
 mod jumps;
+mod kinks;
 mod noise;
 mod parse;
 mod program;
@@ -126,6 +127,20 @@ impl Expression {
         let time = self.0.variables.iter().position(|name| name == "t");
         time.map_or_else(Vec::new, |time| {
             jumps::jumps(&self.0.program, time, self.0.variables.len(), (from, to))
+        })
+    }
+}
+
+impl Expression {
+    /// The instants in `from < t < to` where the expression is continuous but not smooth, ascending; at most 10,000.
+    ///
+    /// Whole arguments of `noise`, zeros of the arguments of `abs` and `ramp`, equal arguments of `min` and `max`. Found
+    /// exactly where the argument of a noise is linear in time, else as [`Self::jumps`] does. Where the slope stays the
+    /// same nevertheless, because the noise is switched off, say, there is no kink.
+    pub fn kinks(&self, from: f64, to: f64) -> Vec<f64> {
+        let time = self.0.variables.iter().position(|name| name == "t");
+        time.map_or_else(Vec::new, |time| {
+            kinks::kinks(&self.0.program, time, self.0.variables.len(), (from, to))
         })
     }
 }

@@ -4,7 +4,7 @@ use crate::platform::Runner;
 use crate::platform::files::FileRequest;
 use crate::session::{Command, Derived, Place, Session, update};
 
-use super::{figures_panel, observer_panel, status_bar, system_panel, theme, top_bar};
+use super::{figures_panel, observer, status_bar, system, theme, top_bar};
 
 /// The whole application on a screen.
 pub struct App {
@@ -13,6 +13,8 @@ pub struct App {
     runner: Box<dyn Runner>,
     /// State of widgets that is not worth saving: open menus, active cell.
     widgets: super::Widgets,
+    /// Time at which a running computation was first seen to be out of date.
+    outdated_since: Option<f64>,
     /// What was asked of the platform.
     file_requests: Vec<FileRequest>,
 }
@@ -32,6 +34,7 @@ impl App {
             derived: Derived::default(),
             runner,
             widgets: super::Widgets::default(),
+            outdated_since: None,
             file_requests: Vec::new(),
         }
     }
@@ -74,8 +77,27 @@ impl App {
         }
     }
 
+    /// Abandons a long computation whose document has changed; a short one may finish and be shown on the way.
+    fn abandon_outdated(&mut self, ctx: &egui::Context) {
+        const PATIENCE: f64 = 2.0;
+        if !self.derived.is_outdated(self.session.revision()) {
+            self.outdated_since = None;
+            return;
+        }
+        let now = ctx.input(|input| input.time);
+        let since = *self.outdated_since.get_or_insert(now);
+        if now - since > PATIENCE {
+            self.outdated_since = None;
+            self.runner.cancel();
+            self.derived.abandoned();
+        } else {
+            ctx.request_repaint_after(std::time::Duration::from_secs_f64(0.1 + PATIENCE - (now - since)));
+        }
+    }
+
     /// Draws everything and carries out what was asked for.
     pub fn show(&mut self, ui: &mut egui::Ui) {
+        self.abandon_outdated(ui.ctx());
         self.run_jobs();
         theme::choose(ui.ctx(), self.session.view().theme);
         let mut out = super::Output::default();
@@ -99,13 +121,13 @@ impl App {
             .default_size((total * 0.27).clamp(280.0, 440.0))
             .size_range(220.0..=620.0)
             .show(ui, |ui| {
-                scroll(ui, "system-scroll", |ui| system_panel::show(ui, session, derived, widgets, out));
+                scroll(ui, "system-scroll", |ui| system::show(ui, session, derived, widgets, out));
             });
         egui::Panel::left("observer")
             .default_size((total * 0.28).clamp(290.0, 440.0))
             .size_range(260.0..=700.0)
             .show(ui, |ui| {
-                scroll(ui, "observer-scroll", |ui| observer_panel::show(ui, session, derived, widgets, out));
+                scroll(ui, "observer-scroll", |ui| observer::show(ui, session, derived, widgets, out));
             });
         egui::CentralPanel::default().show(ui, |ui| figures_panel::show(ui, session, derived, widgets, out));
     }
@@ -117,11 +139,11 @@ impl App {
             ui.separator();
             match session.view().place {
                 Place::System => {
-                    scroll(ui, "system-scroll", |ui| system_panel::show(ui, session, derived, widgets, out));
+                    scroll(ui, "system-scroll", |ui| system::show(ui, session, derived, widgets, out));
                 }
                 Place::Observer => {
                     scroll(ui, "observer-scroll", |ui| {
-                        observer_panel::show(ui, session, derived, widgets, out);
+                        observer::show(ui, session, derived, widgets, out);
                     });
                 }
                 Place::Figures => figures_panel::show(ui, session, derived, widgets, out),
@@ -139,7 +161,10 @@ impl App {
             self.runner.cancel();
             self.derived.cancelled();
         }
-        if any {
+        if out.again {
+            self.derived.again();
+        }
+        if any || out.again {
             // the computation starts in this frame, not with the next event
             self.run_jobs();
             ctx.request_repaint();

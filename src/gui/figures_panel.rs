@@ -193,10 +193,12 @@ fn is_unknown_input(panel: &Panel) -> bool {
 fn poles(ui: &mut Ui, session: &Session, derived: &Derived, out: &mut Output) {
     const LIST: f32 = 200.0;
     let poles = Poles::collect(session, derived);
-    ui.colored_label(
-        theme::faint(ui),
-        "Drag a cross, or focus it and use the arrow keys (with Shift: finer).",
-    );
+    let hint = if poles.by_region {
+        "The modes of the error lie in the coloured region; the demand on the decay moves its border."
+    } else {
+        "Drag a cross, or focus it and use the arrow keys (with Shift: finer)."
+    };
+    ui.colored_label(theme::faint(ui), hint);
     if ui.available_width() > 540.0 {
         let size = vec2(ui.available_width() - LIST - theme::BLOCK_GAP, ui.available_height() - 4.0);
         ui.horizontal_top(|ui| {
@@ -212,16 +214,18 @@ fn poles(ui: &mut Ui, session: &Session, derived: &Derived, out: &mut Output) {
 
 fn pole_lists(ui: &mut Ui, poles: &Poles) {
     ui.vertical(|ui| {
-        egui::Grid::new("poles").striped(true).spacing([16.0, 3.0]).show(ui, |ui| {
-            ui.colored_label(theme::accent(ui), "x  requested");
-            ui.colored_label(theme::good(ui), "•  achieved");
-            ui.end_row();
-            for (k, wished) in poles.wished[..poles.used].iter().enumerate() {
-                ui.monospace(show_pole(*wished));
-                ui.monospace(poles.achieved.get(k).map_or_else(|| "-".to_owned(), |z| show_pole(*z)));
+        if !poles.by_region {
+            egui::Grid::new("poles").striped(true).spacing([16.0, 3.0]).show(ui, |ui| {
+                ui.colored_label(theme::accent(ui), "x  requested");
+                ui.colored_label(theme::good(ui), "•  achieved");
                 ui.end_row();
-            }
-        });
+                for (k, wished) in poles.wished[..poles.used].iter().enumerate() {
+                    ui.monospace(show_pole(*wished));
+                    ui.monospace(poles.achieved.get(k).map_or_else(|| "-".to_owned(), |z| show_pole(*z)));
+                    ui.end_row();
+                }
+            });
+        }
         let list = |ui: &mut Ui, title: &str, colour: egui::Color32, values: &[Complex64]| {
             if values.is_empty() {
                 return;
@@ -232,6 +236,9 @@ fn pole_lists(ui: &mut Ui, poles: &Poles) {
                 ui.monospace(show_pole(*value));
             }
         };
+        if poles.by_region {
+            list(ui, "•  modes of the error", theme::good(ui), &poles.achieved);
+        }
         list(ui, "waiting, not used by this order", theme::faint(ui), &poles.wished[poles.used..]);
         list(ui, "fixed modes, which no gain moves", theme::near(ui), &poles.fixed);
         list(ui, "finite eigenvalues of the plant", theme::faint(ui), &poles.plant);

@@ -3,7 +3,7 @@
 use egui::{Align2, FontId, Id, Key, Rect, RichText, Sense, Stroke, Ui, vec2};
 
 use super::text_field::text_field;
-use super::{Output, Widgets, theme};
+use super::{Output, Widgets, blocks, theme};
 use crate::document::{DescriptorData, Matrix, MatrixSyntax, matrix_to_text};
 use crate::session::{Cell, Edit, Field, Fill, Session, cell_name};
 
@@ -81,13 +81,15 @@ fn show(
 }
 
 /// Width below which a cell does not show a usual number.
-const NARROWEST: f32 = 38.0;
-const ROW_HEIGHT: f32 = 24.0;
-const GAP: f32 = 3.0;
+pub(super) const NARROWEST: f32 = 38.0;
+/// Height of a row.
+pub(super) const ROW_HEIGHT: f32 = 24.0;
+/// Distance between cells.
+pub(super) const GAP: f32 = 3.0;
 /// Room for the brackets on both sides.
-const BRACKET: f32 = 8.0;
+pub(super) const BRACKET: f32 = 8.0;
 /// Room for the names of the columns.
-const HEADER: f32 = 14.0;
+pub(super) const HEADER: f32 = 14.0;
 
 /// The document's matrices and what was typed into their cells.
 #[derive(Clone, Copy)]
@@ -119,6 +121,7 @@ fn cells(ui: &mut Ui, sheet: Sheet<'_>, matrix: Matrix, widgets: &mut Widgets, o
             one_cell(ui, place, sheet, cell, widgets, out);
         }
     }
+    blocks::separators(ui, &data.partition, matrix, blocks::Cells { rect, body, width }, out);
 }
 
 /// What the columns multiply: states, inputs or unknown inputs.
@@ -144,7 +147,8 @@ fn column_names(ui: &Ui, rect: Rect, matrix: Matrix, columns: usize, width: f32)
     }
 }
 
-fn brackets(ui: &Ui, rect: Rect) {
+/// The brackets of a matrix.
+pub(super) fn brackets(ui: &Ui, rect: Rect) {
     let stroke = Stroke::new(1.3, ui.visuals().text_color());
     let painter = ui.painter();
     for (x, tip) in [(rect.left() + 2.0, 4.0), (rect.right() - 2.0, -4.0)] {
@@ -166,6 +170,9 @@ fn one_cell(ui: &mut Ui, place: Rect, sheet: Sheet<'_>, cell: Cell, widgets: &mu
     );
     if dimmed {
         child.visuals_mut().override_text_color = Some(theme::faint(ui).gamma_multiply(0.75));
+    }
+    if let Some(fill) = blocks::fill(ui, &data.partition, cell) {
+        child.visuals_mut().text_edit_bg_color = Some(fill);
     }
     let name = cell_name(cell);
     let typed = text_field(&mut child, widgets, (id, &name), &entry.shown(), draft, place.width());

@@ -2,25 +2,26 @@
 
 pub mod accessibility;
 mod app;
-mod conditions;
+mod blocks;
 mod curve;
+mod demand;
+mod entry_grid;
 pub mod figures_panel;
 mod file_menu;
 mod formula;
 #[cfg(not(target_arch = "wasm32"))]
 mod icon;
 pub mod matrix_grid;
-pub mod observer_panel;
+pub mod observer;
 pub mod plot;
 pub mod pole_plane;
-mod result;
 pub mod scenario;
 mod shortcuts;
 mod start;
 #[cfg(target_arch = "wasm32")]
 mod state_report;
 mod status_bar;
-pub mod system_panel;
+pub mod system;
 pub mod text_field;
 pub mod theme;
 mod top_bar;
@@ -43,6 +44,8 @@ pub struct Output {
     pub commands: Vec<Command>,
     /// Stop the running computation.
     pub cancel: bool,
+    /// Start a computation again that was stopped or broke off.
+    pub again: bool,
     /// Files and links.
     pub files: Vec<FileRequest>,
 }

@@ -4,10 +4,10 @@ use nalgebra::DMatrix;
 use serde::Serialize;
 
 use super::Window;
-use crate::document::{Matrix, PlantData};
+use crate::document::{DescriptorData, Matrix, PlantData};
 use crate::numerics::Complex64;
-use crate::observer::Verdict;
-use crate::session::Task;
+use crate::observer::{Design, DesignError, LmiChoice, LmiResult, Verdict};
+use crate::session::{Analysis, Light, Task};
 
 /// What a test of the page can know without looking at pixels.
 #[derive(Debug, Serialize)]
@@ -24,6 +24,11 @@ pub(super) struct Report {
     scale: f64,
     order: &'static str,
     method: &'static str,
+    lmi: Lmi,
+    /// Subsystems of the partition.
+    subsystems: usize,
+    /// Components of the nonlinearity.
+    nonlinear: usize,
     matrices: Matrices,
     conditions: Vec<Condition>,
     verified: bool,
@@ -55,6 +60,33 @@ struct Matrices {
 }
 
 type Rows = Vec<Vec<f64>>;
+
+/// Demands on a design by linear matrix inequalities, and what came of them.
+#[derive(Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Lmi {
+    decay: Option<f64>,
+    gain: Option<f64>,
+    asked_gamma: Option<f64>,
+    given_rows: usize,
+    examines: bool,
+    /// One for each subsystem, or for the whole system.
+    results: Vec<LmiOutcome>,
+    /// The block that stops the inequalities.
+    infeasible: Option<String>,
+    /// Lights of all methods.
+    lights: Vec<(&'static str, Light)>,
+}
+
+#[derive(Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+struct LmiOutcome {
+    name: String,
+    gamma: Option<f64>,
+    gamma_best: Option<f64>,
+    proved: bool,
+    iterations: u32,
+}
 
 #[derive(Debug, Serialize)]
 struct Condition {
@@ -91,13 +123,18 @@ pub(super) fn report(window: &Window) -> Report {
         scale: document.design.scale,
         order: document.design.order.key(),
         method: document.design.method.key(),
+        lmi: lmi(&document.design.lmi, analysis, design),
+        subsystems: descriptor(&document.plant).map_or(0, |data| data.partition.len()),
+        nonlinear: descriptor(&document.plant)
+            .and_then(|data| data.lipschitz.as_ref())
+            .map_or(0, |lipschitz| lipschitz.f.len()),
         matrices: matrices(&document.plant),
         conditions: assessment.map_or_else(Vec::new, |assessment| {
             let condition =
                 |c: &crate::observer::Condition| Condition { id: c.id.clone(), verdict: c.verdict };
             assessment.conditions.iter().map(condition).collect()
         }),
-        verified: analysis.is_some_and(crate::session::Analysis::verified),
+        verified: analysis.is_some_and(Analysis::verified),
         spectrum: design.map_or_else(Vec::new, |design| pairs(&design.verification.spectrum)),
         errors: errors(analysis),
         rms: simulation.map_or_else(Vec::new, |simulation| simulation.rms.clone()),
@@ -118,7 +155,42 @@ pub(super) fn report(window: &Window) -> Report {
     }
 }
 
-fn errors(analysis: Option<&crate::session::Analysis>) -> Vec<String> {
+fn descriptor(plant: &PlantData) -> Option<&DescriptorData> {
+    match plant {
+        PlantData::Descriptor(data) => Some(data),
+        PlantData::Network(_) => None,
+    }
+}
+
+fn lmi(choice: &LmiChoice, analysis: Option<&Analysis>, design: Option<&Design>) -> Lmi {
+    let outcome = |result: &LmiResult| LmiOutcome {
+        name: result.name.clone(),
+        gamma: result.gamma,
+        gamma_best: result.gamma_best,
+        proved: result.certificate.proved,
+        iterations: result.iterations,
+    };
+    let assessment = analysis.and_then(|analysis| analysis.assessment.as_ref().ok());
+    let infeasible = match assessment.map(|assessment| &assessment.outcome) {
+        Some(Err(DesignError::Infeasible(infeasible))) => Some(infeasible.block.clone()),
+        _ => None,
+    };
+    let lights = analysis.map_or_else(Vec::new, |analysis| {
+        analysis.methods.iter().map(|light| (light.method.key(), light.light)).collect()
+    });
+    Lmi {
+        decay: choice.decay,
+        gain: choice.gain,
+        asked_gamma: choice.gamma,
+        given_rows: choice.rows.len(),
+        examines: choice.given.is_some(),
+        results: design.map_or(&[][..], |design| design.synthesis.lmi()).iter().map(outcome).collect(),
+        infeasible,
+        lights,
+    }
+}
+
+fn errors(analysis: Option<&Analysis>) -> Vec<String> {
     let Some(analysis) = analysis else { return Vec::new() };
     let mut errors = Vec::new();
     match &analysis.assessment {

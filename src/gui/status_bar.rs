@@ -15,7 +15,14 @@ pub(super) fn show(ui: &mut Ui, session: &Session, derived: &Derived, out: &mut 
                 out.cancel = true;
             }
         } else if let Some(failure) = derived.failure() {
-            ui.colored_label(theme::bad(ui), format!("the computation broke off: {failure}"));
+            if derived.was_cancelled() {
+                ui.colored_label(theme::near(ui), "cancelled: the last results stay");
+            } else {
+                ui.colored_label(theme::bad(ui), format!("the computation broke off: {failure}"));
+            }
+            if ui.button("Compute again").clicked() {
+                out.again = true;
+            }
         } else {
             let took =
                 derived.elapsed_ms().map(|ms| format!("conditions, design and simulation in {ms:.0} ms"));

@@ -48,6 +48,12 @@ pub fn series(ui: &Ui, index: usize) -> Color32 {
     palette[index % palette.len()]
 }
 
+/// Ground of the cells of a subsystem's block: its colour, dimmed so that numbers stay legible; fainter for couplings.
+pub fn block(ui: &Ui, index: usize, coupling: bool) -> Color32 {
+    let share = if coupling { 0.09 } else { 0.22 };
+    ui.visuals().extreme_bg_color.lerp_to_gamma(series(ui, index), share)
+}
+
 /// Green, amber, red and grey of lights and verdicts, readable as text on the background.
 pub fn good(ui: &Ui) -> Color32 {
     if ui.visuals().dark_mode { Color32::from_rgb(70, 200, 140) } else { Color32::from_rgb(0, 120, 80) }

@@ -43,7 +43,7 @@ pub(super) fn simulate(source: &Source, format: Format, files: &dyn Files) -> Re
     };
     let mut remarks = unverified(&design);
     let code = if remarks.is_empty() { DONE } else { REFUSED };
-    remarks.extend(trajectory.note);
+    remarks.extend(trajectory.note.into_iter().chain(trajectory.remarks));
     Ok(Answer { text, remarks, code })
 }
 
@@ -64,7 +64,7 @@ pub(super) fn simulated(problem: &Problem) -> Result<(Design, Trajectory), Refus
     })?;
     let trajectory = document
         .scenario(system)
-        .run(system, &[&design.observer], &document.tolerance)
+        .run(model, &[(&design).into()], &document.tolerance, &Watch::none())
         .map_err(|error| Refusal::refused(format!("the simulation was refused: {error}")))?;
     Ok((design, trajectory))
 }

@@ -48,6 +48,10 @@ impl Affine {
         self.constant.is_finite() && self.terms.iter().all(|(_, coefficient)| coefficient.is_finite())
     }
 
+    pub(super) fn largest_coefficient(&self) -> f64 {
+        self.terms.iter().fold(0.0, |most, (_, coefficient)| most.max(coefficient.abs()))
+    }
+
     /// The number of variables that a point needs to have for this form.
     pub(super) fn reach(&self) -> usize {
         self.terms.last().map_or(0, |(index, _)| index + 1)

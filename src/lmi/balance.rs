@@ -50,8 +50,8 @@ pub(super) fn balance(blocks: &[Triangle<'_>], variables: usize) -> Balance {
         coefficient.counts = coefficient.after(&first) > NOISE;
     }
     let logs = least_squares(&coefficients, rows + variables);
-    const MOST: f64 = 250.0;
-    #[expect(clippy::cast_possible_truncation, reason = "clamped to +-250")]
+    const MOST: f64 = 500.0;
+    #[expect(clippy::cast_possible_truncation, reason = "clamped to +-500")]
     let exponents: Vec<i32> = logs.iter().map(|log| log.clamp(-MOST, MOST).round() as i32).collect();
     let (of_rows, of_variables) = exponents.split_at(rows);
     let mut rest = of_rows;

@@ -1,5 +1,8 @@
 //! The one file that names the semidefinite solver.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
     DefaultInfo, DefaultSettings, DefaultSolver, IPSolver as _, SolverStatus, SupportedConeT,
@@ -14,6 +17,16 @@ pub(super) struct Limits<'a> {
     pub(super) watch: &'a Watch,
     /// What is being found ("least gamma"), the beginning of the progress text.
     pub(super) label: &'a str,
+    pub(super) effort: Effort,
+}
+
+/// How exactly to solve.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Effort {
+    /// Tolerance of gap and feasibility.
+    pub(super) tolerance: f64,
+    /// The solve may end as soon as the least value is known to exceed this.
+    pub(super) enough: Option<f64>,
 }
 
 /// How a solve ended.
@@ -25,6 +38,8 @@ pub(super) enum End {
     Doubtful(String),
     Infeasible,
     Unbounded,
+    /// The least value exceeds what was enough to know.
+    Exceeded,
     Cancelled,
     OutOfTime,
 }
@@ -62,12 +77,17 @@ pub(super) fn solve(program: &Program, limits: &Limits<'_>) -> Answer {
         })
         .collect();
     let no_squares = CscMatrix::zeros((columns, columns));
-    let settings = settings(limits.seconds);
+    let settings = settings(limits);
     match DefaultSolver::new(&no_squares, &program.objective, &matrix, &program.offsets, &cones, settings) {
         Ok(mut solver) => {
-            solver.set_termination_callback(report(limits));
+            let exceeded = Arc::new(AtomicBool::new(false));
+            solver.set_termination_callback(report(limits, Arc::clone(&exceeded)));
             solver.solve();
-            answer(&solver)
+            let mut answer = answer(&solver);
+            if exceeded.load(Ordering::Relaxed) {
+                answer.end = End::Exceeded;
+            }
+            answer
         }
         Err(error) => Answer {
             end: End::Doubtful(error.to_string()),
@@ -80,14 +100,14 @@ pub(super) fn solve(program: &Program, limits: &Limits<'_>) -> Answer {
     }
 }
 
-fn settings(seconds: f64) -> DefaultSettings<f64> {
+fn settings(limits: &Limits<'_>) -> DefaultSettings<f64> {
     DefaultSettings {
         verbose: false,
         max_iter: 200,
-        time_limit: seconds,
-        tol_gap_abs: 1e-9,
-        tol_gap_rel: 1e-9,
-        tol_feas: 1e-9,
+        time_limit: limits.seconds,
+        tol_gap_abs: limits.effort.tolerance,
+        tol_gap_rel: limits.effort.tolerance,
+        tol_feas: limits.effort.tolerance,
         // the blocks are small and dense
         chordal_decomposition_enable: false,
         ..DefaultSettings::default()
@@ -95,9 +115,19 @@ fn settings(seconds: f64) -> DefaultSettings<f64> {
 }
 
 /// Tells the watch of each iteration; `true` stops the solver.
-fn report(limits: &Limits<'_>) -> impl FnMut(&DefaultInfo<f64>) -> bool + Send + Sync + 'static {
+fn report(
+    limits: &Limits<'_>,
+    exceeded: Arc<AtomicBool>,
+) -> impl FnMut(&DefaultInfo<f64>) -> bool + Send + Sync + 'static {
     let (watch, label) = (limits.watch.clone(), limits.label.to_owned());
+    let enough = limits.effort.enough;
     move |info| {
+        // a feasible point of the dual problem bounds the least value from below
+        const FEASIBLE: f64 = 1e-8;
+        if enough.is_some_and(|enough| info.cost_dual > enough && info.res_dual < FEASIBLE) {
+            exceeded.store(true, Ordering::Relaxed);
+            return true;
+        }
         // the gap falls from about one to 1e-9
         #[expect(clippy::cast_possible_truncation, reason = "a fraction")]
         let fraction = (-info.gap_rel.log10() / 9.0) as f32;

@@ -66,6 +66,9 @@ impl Expr {
     }
 
     /// `X + X'`.
+    ///
+    /// # Panics
+    /// When the expression is not square.
     #[must_use]
     pub fn he(&self) -> Self {
         assert!(self.rows == self.columns, "X + X' of a {} x {} expression", self.rows, self.columns);
@@ -82,6 +85,9 @@ impl Expr {
     }
 
     /// A scalar expression (1 x 1) times a constant matrix.
+    ///
+    /// # Panics
+    /// When the expression is not 1 x 1.
     #[must_use]
     pub fn times(&self, matrix: &DMatrix<f64>) -> Self {
         assert!(
@@ -96,6 +102,9 @@ impl Expr {
     }
 
     /// The sum of the diagonal, 1 x 1.
+    ///
+    /// # Panics
+    /// When the expression is not square.
     #[must_use]
     pub fn trace(&self) -> Self {
         assert!(self.rows == self.columns, "trace of a {} x {} expression", self.rows, self.columns);
@@ -104,6 +113,9 @@ impl Expr {
     }
 
     /// `[A B C ...]`.
+    ///
+    /// # Panics
+    /// When the heights differ.
     pub fn side_by_side(parts: &[Self]) -> Self {
         let rows = parts.first().map_or(0, Self::nrows);
         assert!(parts.iter().all(|part| part.rows == rows), "parts of different height side by side");
@@ -112,6 +124,9 @@ impl Expr {
     }
 
     /// `[A; B; C; ...]`.
+    ///
+    /// # Panics
+    /// When the widths differ.
     pub fn stack(parts: &[Self]) -> Self {
         let columns = parts.first().map_or(0, Self::ncols);
         assert!(parts.iter().all(|part| part.columns == columns), "parts of different width stacked");
@@ -125,6 +140,9 @@ impl Expr {
     }
 
     /// A symmetric block matrix from its upper triangle, row by row: `[[a11, a12, a13], [a22, a23], [a33]]`.
+    ///
+    /// # Panics
+    /// When the blocks do not fit together.
     pub fn symmetric(upper: Vec<Vec<Self>>) -> Self {
         let blocks = upper.len();
         let sizes: Vec<usize> = upper.iter().map(|row| row.first().map_or(0, Self::nrows)).collect();

@@ -31,10 +31,12 @@ pub mod certificate;
 mod clarabel;
 mod expression;
 mod operators;
+mod optimise;
 mod outcome;
 mod phases;
 mod problem;
 mod program;
+mod run;
 mod scaled;
 mod solution;
 

@@ -1,5 +1,7 @@
 //! A problem: matrix variables and the inequalities that hold between them.
 
+use std::ops::Range;
+
 use super::affine::Affine;
 use super::expression::Expr;
 
@@ -99,6 +101,12 @@ impl Problem {
         &self.constraints
     }
 
+    /// The entries of a point that belong to one variable, for each variable.
+    pub(super) fn ranges(&self) -> impl Iterator<Item = Range<usize>> {
+        let starts = std::iter::once(0).chain(self.variables.iter().map(|variable| variable.end));
+        starts.zip(&self.variables).map(|(start, variable)| start..variable.end)
+    }
+
     /// The name of the variable that an entry of a point belongs to.
     pub(super) fn name_of(&self, unknown: usize) -> &str {
         self.variables.iter().find(|variable| unknown < variable.end).map_or("", |variable| &variable.name)
@@ -140,7 +148,7 @@ fn is_symmetric(expression: &Expr) -> bool {
     pairs().all(|(i, j)| {
         let halves = [(1.0, expression.entry(i, j)), (-1.0, expression.entry(j, i))];
         let apart = amount(&Affine::combination(halves.into_iter()));
-        !(apart > ROUNDING * largest)
+        apart.is_nan() || apart <= ROUNDING * largest
     })
 }
 

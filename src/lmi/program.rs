@@ -34,8 +34,8 @@ pub(super) struct Program {
 pub(super) enum Goal {
     /// The largest `t <= 1` with `F >= t I` for the strict blocks, or for all; with the objective at most `level`.
     Margin { level: Option<f64>, all: bool },
-    /// The least objective, multiplied by a factor.
-    Least { factor: f64 },
+    /// The least objective.
+    Least,
 }
 
 impl Program {
@@ -53,10 +53,10 @@ impl Program {
                     program.push_level(&scaled.objective, level);
                 }
             }
-            Goal::Least { factor } => {
+            Goal::Least => {
                 program.objective = vec![0.0; unknowns];
                 for (index, value) in &scaled.objective.terms {
-                    program.objective[*index] = factor * value;
+                    program.objective[*index] = *value;
                 }
             }
         }

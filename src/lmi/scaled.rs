@@ -54,12 +54,16 @@ impl Scaled {
             return Err(not_finite("The objective"));
         }
         let scaled = Self::balanced(blocks, objective, problem.unknowns());
-        let finite = scaled.blocks.iter().all(|block| block.upper.iter().all(Affine::is_finite));
-        if finite && scaled.objective.is_finite() {
+        // beyond this the solver's arithmetic cannot tell a solution from none
+        const LARGEST: f64 = 1e12;
+        let fits = |entry: &Affine| {
+            entry.is_finite() && entry.constant.abs().max(entry.largest_coefficient()) <= LARGEST
+        };
+        if scaled.blocks.iter().all(|block| block.upper.iter().all(fits)) && fits(&scaled.objective) {
             Ok(scaled)
         } else {
-            let why =
-                "The numbers of the inequalities span more than double precision holds; choose other units";
+            let why = "The numbers of the inequalities span more than double precision holds, in whatever units: \
+                       look for an entry that is far larger or smaller than the others";
             Err(Stop::GaveUp(why.to_owned()))
         }
     }
@@ -74,15 +78,47 @@ impl Scaled {
             }
         }
         let plain = scale(objective, 0, &found.variables);
-        let largest = plain.terms.iter().fold(0.0_f64, |most, (_, value)| most.max(value.abs()));
-        #[expect(clippy::cast_possible_truncation, reason = "exponents of doubles are small")]
-        let objective_exponent = if largest > 0.0 { largest.log2().round() as i32 } else { 0 };
+        let objective_exponent = exponent_of(plain.largest_coefficient());
         let objective = scale(objective, -objective_exponent, &found.variables);
         Self { blocks, objective, variables: found.variables, objective_exponent }
     }
 
+    /// The same problem in coordinates in which a point and the blocks at it are of order one.
+    ///
+    /// The variables of one matrix keep their ratios.
+    pub(super) fn centred(&self, problem: &Problem, xi: &[f64]) -> Self {
+        let exponents = self.sizes(problem, xi);
+        let blocks = self.blocks.iter().map(|block| block.centred(xi, &exponents)).collect();
+        let plain = scale(&self.objective, 0, &exponents);
+        let shift = exponent_of(plain.largest_coefficient());
+        Self {
+            blocks,
+            objective: scale(&plain, -shift, &vec![0; exponents.len()]),
+            variables: self.variables.iter().zip(&exponents).map(|(old, new)| old + new).collect(),
+            objective_exponent: self.objective_exponent + shift,
+        }
+    }
+
+    /// For each variable the exponent of the largest entry of its matrix.
+    fn sizes(&self, problem: &Problem, xi: &[f64]) -> Vec<i32> {
+        let mut exponents = vec![0; self.unknowns()];
+        for range in problem.ranges() {
+            let largest =
+                xi.get(range.clone()).unwrap_or_default().iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            if let Some(of_matrix) = exponents.get_mut(range) {
+                of_matrix.fill(exponent_of(largest));
+            }
+        }
+        exponents
+    }
+
     pub(super) fn unknowns(&self) -> usize {
         self.variables.len()
+    }
+
+    /// `xi = S^-1 x`.
+    pub(super) fn balanced_point(&self, x: &[f64]) -> Vec<f64> {
+        x.iter().zip(&self.variables).map(|(x, exponent)| times_power(*x, -exponent)).collect()
     }
 
     /// `x = S xi`.
@@ -104,6 +140,16 @@ impl Scaled {
 }
 
 impl Block {
+    /// `D F D` with ones on the diagonal at `xi`, the variables `2^exponents` larger.
+    fn centred(&self, xi: &[f64], exponents: &[i32]) -> Self {
+        let diagonal = upper_triangle(self.size).zip(&self.upper).filter(|((i, j), _)| i == j);
+        // half the exponent, up or down: D^2 is a power of four
+        let rows: Vec<i32> = diagonal.map(|(_, entry)| -exponent_of(entry.value(xi)).div_euclid(2)).collect();
+        let scaled = upper_triangle(self.size).zip(&self.upper);
+        let upper = scaled.map(|((i, j), entry)| scale(entry, rows[i] + rows[j], exponents)).collect();
+        Self { upper, ..*self }
+    }
+
     fn smallest_eigenvalue(&self, xi: &[f64]) -> f64 {
         let mut matrix = DMatrix::zeros(self.size, self.size);
         for ((i, j), entry) in upper_triangle(self.size).zip(&self.upper) {
@@ -140,6 +186,15 @@ fn scale(form: &Affine, exponent: i32, variables: &[i32]) -> Affine {
         constant: times_power(form.constant, exponent),
         terms: form.terms.iter().map(term).filter(|(_, value)| *value != 0.0).collect(),
     }
+}
+
+/// The nearest power of two, as its exponent; zero for what has none.
+fn exponent_of(x: f64) -> i32 {
+    const MOST: f64 = 100.0;
+    let log = x.abs().log2();
+    #[expect(clippy::cast_possible_truncation, reason = "clamped to +-100")]
+    let exponent = log.clamp(-MOST, MOST).round() as i32;
+    if log.is_finite() { exponent } else { 0 }
 }
 
 /// `x 2^exponent` without overflow on the way.

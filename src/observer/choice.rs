@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Condition, Design, DesignError, LmiChoice, proportional, proportional_integral};
+use super::{Condition, Design, DesignError, LmiChoice, h_infinity, proportional, proportional_integral};
 use crate::numerics::{Complex64, Tolerance, Watch};
 use crate::system::properties::PropertyError;
 use crate::system::{Model, TimeDomain};
@@ -205,7 +205,8 @@ pub fn conditions(
         Method::ProportionalIntegral => {
             proportional_integral::conditions(&model.system, choice.order, tolerance)
         }
-        Method::HInfinity | Method::Decentralized => Ok(Vec::new()),
+        Method::HInfinity => h_infinity::conditions(model, choice, tolerance),
+        Method::Decentralized => Ok(Vec::new()),
     }
 }
 
@@ -234,8 +235,8 @@ pub fn assess(
         Method::ProportionalIntegral => {
             proportional_integral::design(&model.system, choice, &conditions, tolerance)
         }
-        Method::HInfinity | Method::Decentralized => Err(DesignError::Cancelled),
+        Method::HInfinity => h_infinity::design(model, choice, &conditions, tolerance, watch),
+        Method::Decentralized => Err(DesignError::Cancelled),
     };
-    drop(watch.clone());
     Ok(Assessment { choice: choice.clone(), conditions, outcome })
 }

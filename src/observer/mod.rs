@@ -2,7 +2,9 @@
 
 mod choice;
 mod condition;
+pub mod decentralized;
 mod design;
+pub mod h_infinity;
 pub mod input_decoupled;
 mod lmi_choice;
 pub mod proportional;

@@ -47,7 +47,9 @@ pub fn compute_figure(
         if !run.design.verification.verified() {
             notes.push(format!("{}: the design is not verified", run.name));
         }
-        notes.extend(run.trajectory.iter().filter_map(|t| t.note.clone()));
+        if let Some(trajectory) = &run.trajectory {
+            notes.extend(trajectory.note.iter().chain(&trajectory.remarks).cloned());
+        }
     }
     let mut panels = Vec::new();
     for panel in &recipe.panels {
@@ -83,7 +85,7 @@ fn execute(problem: &Problem<'_>, run: &RunRecipe, timed: bool, watch: &Watch) -
     let design = assessed.outcome.map_err(|error| format!("{name}: {error}"))?;
     let trajectory = if timed {
         let scenario = patched(problem.scenario, &run.scenario);
-        let found = scenario.run(&problem.model.system, &[&design.observer], problem.tolerance);
+        let found = scenario.run(problem.model, &[(&design).into()], problem.tolerance, watch);
         Some(found.map_err(|error| format!("{name}: {error}"))?)
     } else {
         None

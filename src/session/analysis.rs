@@ -109,7 +109,7 @@ pub fn analyse(document: &Document, watch: &Watch) -> Option<Analysis> {
     if !watch.go_on(0.8, "simulation") {
         return None;
     }
-    let simulation = simulation(document, &model, assessment.as_ref());
+    let simulation = simulation(document, &model, assessment.as_ref(), &watch.part(0.8, 1.0));
     let design = assessment.as_ref().ok().and_then(|a| a.outcome.as_ref().ok());
     let bode = design.and_then(|design| standard::bode(system, design));
     Some(Analysis { properties, plant_eigenvalues, methods, assessment, simulation, bode })
@@ -137,17 +137,19 @@ fn simulation(
     document: &Document,
     model: &Model,
     assessment: Result<&Assessment, &String>,
+    watch: &Watch,
 ) -> Result<Simulation, String> {
     let system = &model.system;
     let assessment = assessment.map_err(Clone::clone)?;
     let design =
         assessment.outcome.as_ref().map_err(|error| format!("there is no observer to simulate: {error}"))?;
     let scenario = document.scenario(system);
-    let trajectory =
-        scenario.run(system, &[&design.observer], &document.tolerance).map_err(|error| error.to_string())?;
+    let trajectory = scenario
+        .run(model, &[design.into()], &document.tolerance, watch)
+        .map_err(|error| error.to_string())?;
     let half = trajectory.t.last().copied().unwrap_or(0.0) / 2.0;
     let observer = &trajectory.observers[0];
-    let mut notes: Vec<String> = trajectory.note.iter().cloned().collect();
+    let mut notes: Vec<String> = trajectory.note.iter().chain(&trajectory.remarks).cloned().collect();
     if trajectory.initial_state.change > 1e-9 {
         let values: Vec<String> =
             trajectory.initial_state.consistent.iter().map(|x| format!("{x:.4}")).collect();

@@ -1,5 +1,6 @@
 //! Every intent of a user, as data: the menu, the shortcuts and the tests are made of these.
 
+use super::model_edits::{LipschitzEdit, LmiEdit, PartitionEdit};
 use crate::document::Matrix;
 use crate::numerics::Complex64;
 use crate::observer::{Method, Order};
@@ -139,6 +140,12 @@ pub enum Edit {
     },
     /// The multiplier of the rank threshold.
     RankTolerance(f64),
+    /// Demands on designs by linear matrix inequalities.
+    Lmi(LmiEdit),
+    /// Subsystems.
+    Partition(PartitionEdit),
+    /// The nonlinearity.
+    Lipschitz(LipschitzEdit),
 }
 
 /// A cell of a matrix, rows and columns from zero.

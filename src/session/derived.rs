@@ -8,6 +8,9 @@ use super::job::{JobReply, JobRequest, Outcome, Task};
 use super::state::Session;
 use crate::paper::FigureSpec;
 
+/// Why a computation broke off that a person stopped.
+const CANCELLED: &str = "cancelled";
+
 /// Results by the revision of the document that they belong to; recomputed, never saved.
 #[derive(Debug, Default)]
 pub struct Derived {
@@ -51,6 +54,16 @@ impl Derived {
     /// How long the newest analysis took, in milliseconds, when the platform has a clock.
     pub fn elapsed_ms(&self) -> Option<f64> {
         self.elapsed_ms
+    }
+
+    /// Whether a person stopped the last computation.
+    pub fn was_cancelled(&self) -> bool {
+        self.failure.as_deref() == Some(CANCELLED)
+    }
+
+    /// Whether what is being computed belongs to an earlier revision.
+    pub fn is_outdated(&self, revision: u64) -> bool {
+        self.running.as_ref().is_some_and(|job| job.revision != revision)
     }
 
     /// Takes a reply together with the duration of its computation in milliseconds.
@@ -112,8 +125,20 @@ impl Derived {
 
     /// The running computation was cancelled.
     pub fn cancelled(&mut self) {
-        self.break_off("cancelled".to_owned());
+        self.break_off(CANCELLED.to_owned());
         self.running = None;
+    }
+
+    /// The running computation is abandoned, because its document has changed.
+    pub fn abandoned(&mut self) {
+        self.running = None;
+    }
+
+    /// What was stopped or broke off may start again.
+    pub fn again(&mut self) {
+        self.given_up = None;
+        self.failure = None;
+        self.figures.retain(|_, (_, figure)| figure.is_ok());
     }
 
     fn break_off(&mut self, why: String) {

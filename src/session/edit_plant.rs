@@ -1,12 +1,13 @@
 //! Edits of the system: cells, pasted blocks, sizes; all matrices and the scenario follow.
 
 use super::command::{Cell, Edit, Fill, Size};
+use super::edit_sensor;
 use super::state::{Draft, Field};
 use super::update::Edited;
 use crate::document::limits::MAX_SIDE;
 use crate::document::{DescriptorData, Document, Entry, EntryMatrix, Matrix, PlantData, matrix_from_text};
 use crate::numerics::Random;
-use crate::system::{Signal, check_partition};
+use crate::system::Signal;
 
 /// Changes the system of a document.
 pub(super) fn change(document: &mut Document, edit: Edit) -> Edited {
@@ -29,24 +30,13 @@ pub(super) fn change(document: &mut Document, edit: Edit) -> Edited {
             let edited = resize(document, Size::Outputs, true);
             if let (Edited::Done, PlantData::Descriptor(data)) = (&edited, &mut document.plant) {
                 data.matrix_mut(Matrix::C).set(outputs, state, Entry::number(1.0));
+                edit_sensor::give_to_owner(document, state);
             }
             return edited;
         }
         _ => {}
     }
     Edited::Done
-}
-
-/// Removes a partition into subsystems that the matrices no longer follow.
-pub(super) fn drop_broken_partition(document: &mut Document) {
-    let PlantData::Descriptor(data) = &mut document.plant else { return };
-    if data.partition.is_empty() {
-        return;
-    }
-    let follows = |system| check_partition(&system, &data.partition).is_ok();
-    if !data.system().is_ok_and(follows) {
-        data.partition.clear();
-    }
 }
 
 fn filled(matrix: &mut EntryMatrix, fill: Fill) {
@@ -182,13 +172,6 @@ impl Sizes {
         ];
         for (matrix, (rows, columns)) in data.matrices.iter_mut().zip(shapes) {
             *matrix = matrix.resized(rows, columns);
-        }
-        // a nonlinearity of a state that is gone has no meaning any more
-        let understood = |f: &String| crate::system::nonlinearity(f, states).is_ok();
-        data.lipschitz.take_if(|lipschitz| !lipschitz.f.iter().all(understood));
-        if let Some(lipschitz) = &mut data.lipschitz {
-            lipschitz.G = lipschitz.G.resized(equations, lipschitz.f.len());
-            lipschitz.F_L = lipschitz.F_L.resized(lipschitz.F_L.shape().0, states);
         }
         let scenario = &mut document.scenario;
         if !scenario.x0.is_empty() {

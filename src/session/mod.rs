@@ -1,12 +1,19 @@
 //! L4: the application without a screen: state, commands, the one writer, jobs and what is derived.
 
 mod analysis;
+mod apply;
 mod command;
 mod derived;
+mod edit_lipschitz;
+mod edit_lmi;
+mod edit_partition;
 mod edit_plant;
 mod edit_scenario;
+mod edit_sensor;
+mod follow;
 mod history;
 mod job;
+mod model_edits;
 mod poles;
 mod start;
 mod state;
@@ -17,6 +24,7 @@ pub use command::{Cell, Command, Edit, Fill, Place, Show, SignalList, Size, Tab,
 pub use derived::Derived;
 pub use history::History;
 pub use job::{JobReply, JobRequest, Outcome, Task, perform};
+pub use model_edits::{GivenPart, LipschitzEdit, LipschitzMatrix, LmiEdit, PartitionEdit, Share};
 pub use poles::poles_text;
 pub use start::{restored_view, view_text};
 pub use state::{Draft, Field, Message, Session, View};

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::command::{Cell, Place, SignalList, Tab, ThemeChoice};
 use super::history::History;
+use super::model_edits::{GivenPart, LipschitzMatrix};
 use crate::document::{Document, DocumentError, read_document, write_document_compact};
 use crate::paper::EXAMPLES;
 
@@ -32,6 +33,16 @@ pub enum Field {
     Signal(SignalList, usize),
     /// A cell of the uncertainty: row, column, whether it is the frequency.
     Uncertainty(usize, usize, bool),
+    /// An entry of a given `R`: subsystem, row, column.
+    Rows(usize, usize, usize),
+    /// A part of the observer that is examined.
+    Given(GivenPart),
+    /// An entry of a matrix of the nonlinearity: row, column.
+    Lipschitz(LipschitzMatrix, usize, usize),
+    /// A component of the nonlinearity.
+    Component(usize),
+    /// The Lipschitz constant.
+    LipschitzConstant,
 }
 
 /// A text that was not understood; the last good value stays in force.

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use super::command::{Cell, Command, Edit, Show};
-use super::state::{Draft, Field, Message, Session};
-use super::{edit_plant, edit_scenario, poles};
-use crate::document::{Document, EntryMatrix, PlantData, limits, read_document};
+use super::apply::apply;
+use super::command::{Cell, Command, Show};
+use super::state::{Draft, Field, Session};
+use crate::document::{Document, read_document};
 use crate::paper::example;
 
 /// Carries out a command.
@@ -61,7 +61,7 @@ fn step(session: &mut Session, back: bool) {
 }
 
 /// Puts a changed document in force; an unchanged one leaves no step behind.
-fn replace(session: &mut Session, document: Document, drag: Option<String>) {
+pub(super) fn replace(session: &mut Session, document: Document, drag: Option<String>) {
     if *session.document == document {
         return;
     }
@@ -79,135 +79,6 @@ pub(super) enum Edited {
     Draft(Field, Draft),
     /// It cannot be done.
     Refused(String),
-}
-
-fn apply(session: &mut Session, edit: Edit) {
-    let drag = drag_key(&edit);
-    let ends = drag.as_ref().is_none_or(|(_, done)| *done);
-    let field = typed_field(&edit);
-    let overwritten = match &edit {
-        Edit::Paste { cell, .. } => Some(cell.matrix),
-        Edit::Fill { matrix, .. } => Some(*matrix),
-        _ => None,
-    };
-    let mut document = (*session.document).clone();
-    match change(&mut document, edit) {
-        Edited::Done => {
-            if let Some(field) = field {
-                session.drafts.remove(&field);
-            }
-            let sizes_before = sizes(&session.document);
-            let sizes_after = sizes(&document);
-            if sizes_before != sizes_after {
-                session.drafts.retain(|field, _| matches!(field, Field::Poles));
-            }
-            if let Some(matrix) = overwritten {
-                session
-                    .drafts
-                    .retain(|field, _| !matches!(field, Field::Cell(cell) if cell.matrix == matrix));
-            }
-            replace(session, document, drag.map(|(key, _)| key));
-        }
-        Edited::Draft(field, draft) => {
-            session.drafts.insert(field, draft);
-        }
-        Edited::Refused(why) => session.message = Some(Message { text: why, error: true }),
-    }
-    if ends {
-        session.history.drag_ended();
-    }
-}
-
-fn sizes(document: &Document) -> Vec<(usize, usize)> {
-    match &document.plant {
-        PlantData::Descriptor(data) => data.matrices.iter().map(EntryMatrix::shape).collect(),
-        PlantData::Network(_) => Vec::new(),
-    }
-}
-
-/// Key of a drag and whether it ends with this edit; `None` for an edit that is a step of its own.
-fn drag_key(edit: &Edit) -> Option<(String, bool)> {
-    match edit {
-        Edit::MovePole { index, done, .. } => Some((format!("pole {index}"), *done)),
-        Edit::Scale { done, .. } => Some(("scale".to_owned(), *done)),
-        Edit::UncertaintyScale { done, .. } => Some(("uncertainty".to_owned(), *done)),
-        Edit::NoiseLevel { done, .. } => Some(("noise".to_owned(), *done)),
-        Edit::Title(_) => Some(("title".to_owned(), false)),
-        Edit::Notes(_) => Some(("notes".to_owned(), false)),
-        Edit::Horizon(_) => Some(("horizon".to_owned(), false)),
-        _ => None,
-    }
-}
-
-/// The field whose draft an edit clears when it is understood.
-fn typed_field(edit: &Edit) -> Option<Field> {
-    match edit {
-        Edit::Cell { cell, .. } => Some(Field::Cell(*cell)),
-        Edit::Poles(_) | Edit::MovePole { .. } => Some(Field::Poles),
-        Edit::Initial { state, .. } => Some(Field::Initial(*state)),
-        Edit::Signal { list, index, .. } => Some(Field::Signal(*list, *index)),
-        Edit::UncertaintyCell { row, column, frequency, .. } => {
-            Some(Field::Uncertainty(*row, *column, *frequency))
-        }
-        _ => None,
-    }
-}
-
-fn change(document: &mut Document, edit: Edit) -> Edited {
-    match edit {
-        Edit::Title(title) => document.title = clipped(title),
-        Edit::Notes(notes) => document.notes = clipped(notes),
-        Edit::Time(_)
-        | Edit::Cell { .. }
-        | Edit::Paste { .. }
-        | Edit::Fill { .. }
-        | Edit::Size { .. }
-        | Edit::AddSensor { .. } => {
-            let edited = edit_plant::change(document, edit);
-            edit_plant::drop_broken_partition(document);
-            poles::provide(document);
-            return edited;
-        }
-        Edit::Method(method) => {
-            document.design.method = method;
-            poles::provide(document);
-        }
-        Edit::Order(order) => {
-            document.design.order = order;
-            poles::provide(document);
-        }
-        Edit::Poles(text) => match poles::parse(&text) {
-            Ok(found) => document.design.poles = found,
-            Err(error) => return Edited::Draft(Field::Poles, Draft { text, error }),
-        },
-        Edit::MovePole { index, to, .. } => {
-            if to.re.is_finite() && to.im.is_finite() {
-                poles::drag(document, index, to);
-            }
-        }
-        Edit::Scale { scale, .. } => {
-            if scale.is_finite() {
-                document.design.scale = scale.clamp(0.01, 1000.0);
-            }
-        }
-        Edit::RankTolerance(rank) => {
-            if rank.is_finite() {
-                document.tolerance.rank = rank.clamp(1.0, 1e12);
-            }
-        }
-        Edit::Initial { .. }
-        | Edit::Signal { .. }
-        | Edit::Horizon(_)
-        | Edit::Samples(_)
-        | Edit::UncertaintyScale { .. }
-        | Edit::UncertaintyCell { .. }
-        | Edit::NoiseLevel { .. } => return edit_scenario::change(document, edit),
-    }
-    Edited::Done
-}
-
-fn clipped(text: String) -> String {
-    if text.len() <= limits::MAX_TEXT { text } else { text.chars().take(limits::MAX_TEXT / 4).collect() }
 }
 
 /// A short name for a cell, `A[1, 2]` counted from one.

@@ -4,7 +4,6 @@ use nalgebra::{DMatrix, DVector};
 
 use super::SimulationError;
 use super::joint::Joint;
-use super::plant::Frozen;
 use super::run::LARGEST_STATE;
 use crate::numerics::NumericsError;
 use crate::numerics::integrate::{NODES, Propagator, Segment};
@@ -19,8 +18,8 @@ const KEPT: usize = 32;
 /// All signals at the four nodes of a step.
 type NodeValues = [DVector<f64>; 4];
 
-/// Receives grid index, instant of evaluation, joint state and the plant's matrices; false ends the run.
-type Sample<'s> = dyn FnMut(usize, f64, &DVector<f64>, &Frozen) -> bool + 's;
+/// Receives grid index, instant of evaluation and joint state; false ends the run.
+type Sample<'s> = dyn FnMut(usize, f64, &DVector<f64>) -> bool + 's;
 
 /// Runs over all segments; returns the number of steps, and the time at which a step overflowed.
 pub(super) fn run(
@@ -29,7 +28,6 @@ pub(super) fn run(
     start: DVector<f64>,
     sample: &mut Sample<'_>,
 ) -> Result<(usize, Option<f64>), SimulationError> {
-    let at = joint.plant.freeze(0.0);
     let (m, g) = joint.coefficients();
     let mut steps = Steps { m, g, kept: Vec::new(), same: 0.0 };
     let horizon = segments.last().map_or(0.0, |s| s.end);
@@ -65,7 +63,7 @@ pub(super) fn run(
                 return Ok((count, Some(stop)));
             }
             if let Some(index) = index
-                && !sample(index, segment.inside(stop), &w, &at)
+                && !sample(index, segment.inside(stop), &w)
             {
                 return Ok((count, None));
             }

@@ -2,7 +2,7 @@
 
 use crate::numerics::NumericsError;
 use crate::numerics::integrate::IntegrationError;
-use crate::system::SystemError;
+use crate::system::{LipschitzError, SystemError};
 
 /// A simulation that was refused, or that could not be completed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -45,6 +45,58 @@ pub enum SimulationError {
         /// The uncertain entries of `A` that enter `A22`, as text.
         entries: String,
     },
+    /// The algebraic equations with their nonlinearity become dependent.
+    #[error(
+        "the plant is not of index 1 at t = {time:.6}: the smallest singular value of A22 + U2' G df/dx V2 falls to \
+         {smallest:.1e}, its state would jump or have impulses. Start elsewhere, or change the nonlinearity of the \
+         algebraic equations"
+    )]
+    SingularAlgebraic {
+        /// First time at which this happens.
+        time: f64,
+        /// Smallest singular value there.
+        smallest: f64,
+    },
+    /// No algebraic state was found.
+    #[error(
+        "the algebraic equations have no solution that could be found near the state at t = {time:.6}; give another x0 \
+         as a first guess, or change the nonlinearity"
+    )]
+    NoAlgebraicSolution {
+        /// Time of the attempt.
+        time: f64,
+    },
+    /// No estimate was found.
+    #[error(
+        "the output equation x_hat = ... + M f(t, x_hat) of observer {} has no solution that could be found at \
+         t = {time:.6}; a smaller Lipschitz constant or gain makes it contract",
+        observer + 1
+    )]
+    NoEstimate {
+        /// Which observer, from zero.
+        observer: usize,
+        /// Time of the attempt.
+        time: f64,
+    },
+    /// A nonlinearity without value at a state.
+    #[error(
+        "f(t, x) has no finite value at t = {time:.6}, x = ({state}); the motion leaves the domain of its functions"
+    )]
+    Nonlinearity {
+        /// Time of the evaluation.
+        time: f64,
+        /// The state, as text.
+        state: String,
+    },
+    /// An observer with a nonlinearity beside a plant without.
+    #[error("observer {} contains f(t, x_hat), but the plant has no nonlinearity f", observer + 1)]
+    NoNonlinearity {
+        /// Which observer, from zero.
+        observer: usize,
+    },
+    /// Somebody said stop.
+    #[error("the simulation was cancelled")]
+    Cancelled,
     /// A matrix or vector that does not fit the others.
     #[error("{what} is {} x {}, but {} x {} is needed: {reason}", found.0, found.1, needed.0, needed.1)]
     Shape {
@@ -111,6 +163,9 @@ pub enum SimulationError {
     /// The descriptor system itself is malformed.
     #[error(transparent)]
     System(#[from] SystemError),
+    /// The nonlinearity is malformed.
+    #[error(transparent)]
+    Lipschitz(#[from] LipschitzError),
     /// A decomposition failed.
     #[error(transparent)]
     Numerics(#[from] NumericsError),

@@ -2,6 +2,7 @@
 
 use nalgebra::DMatrix;
 
+use super::newton::determinant_sign;
 use super::{Plant, SimulationError};
 use crate::numerics::svd;
 
@@ -32,6 +33,10 @@ impl Plant {
     /// # Errors
     /// [`SimulationError::LosesIndexOne`] with the first such instant.
     pub(super) fn smallest_a22(&self, horizon: f64) -> Result<f64, SimulationError> {
+        if self.is_implicit() {
+            // decided along the motion
+            return Ok(f64::INFINITY);
+        }
         if !self.varies() || self.algebraic_rows.nrows() == 0 {
             return Ok(self.index_decision().smallest());
         }
@@ -71,9 +76,7 @@ impl Plant {
 
     fn look(&self, t: f64) -> Look {
         let factors = self.algebraic_block(t).lu();
-        let flips: f64 = factors.p().determinant();
-        let pivots = factors.u().diagonal();
-        let sign = pivots.iter().map(|x| if *x == 0.0 { 0.0 } else { x.signum() }).product::<f64>() * flips;
+        let sign = determinant_sign(&factors);
         let bound = factors.try_inverse().map_or(0.0, |inverse| inverse.norm().recip());
         Look { t, sign, bound }
     }

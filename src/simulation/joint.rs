@@ -1,11 +1,13 @@
-//! Plant and observers as one set of linear equations.
+//! Plant and observers as one set of equations.
 
 use nalgebra::{DMatrix, DVector};
 
-use super::plant::Frozen;
-use super::{Plant, SimulationError};
+use super::evaluator::Evaluator;
+use super::plant::sees;
+use super::run::LARGEST_STATE;
+use super::{Observed, Plant, SimulationError};
 use crate::numerics::integrate::Signals;
-use crate::observer::LinearObserver;
+use crate::observer::{Injection, LinearObserver};
 
 /// Everything that drives plant and observers from outside.
 #[derive(Clone, Copy)]
@@ -42,39 +44,35 @@ pub(super) struct Values {
 /// Plant, observers and inputs, whose shapes fit together.
 ///
 /// ```text
-/// w = [xi; z_1; z_2; ...],   y = C x + F d + v,   z_i' = N_i z_i + L_i y + H_i u
+/// w = [xi; z_1; z_2; ...],   y = C x + F d + v
+/// z_i' = N_i z_i + L_i y + H_i u + S_i f(t, x_hat_i),   x_hat_i = P_i z_i + V_i y + W_i u + M_i f(t, x_hat_i)
 /// ```
 #[derive(Clone, Debug)]
 pub(super) struct Joint<'a> {
     pub(super) plant: &'a Plant,
-    pub(super) observers: Vec<&'a LinearObserver>,
+    pub(super) observers: Vec<Observed<'a>>,
     pub(super) inputs: Inputs<'a>,
-}
-
-/// The whole system at one instant.
-#[derive(Clone, Debug)]
-pub(super) struct Evaluation {
-    pub(super) x: DVector<f64>,
-    pub(super) y: DVector<f64>,
-    pub(super) derivative: DVector<f64>,
 }
 
 impl<'a> Joint<'a> {
     /// Joins a plant and observers after checking that their shapes fit.
     pub(super) fn new(
         plant: &'a Plant,
-        observers: &[&'a LinearObserver],
+        observers: &[Observed<'a>],
         inputs: Inputs<'a>,
     ) -> Result<Self, SimulationError> {
-        for (i, observer) in observers.iter().enumerate() {
-            check(i, observer, plant)?;
+        for (i, observed) in observers.iter().enumerate() {
+            check(i, observed.observer, plant)?;
+            if let Some(injection) = observed.injection {
+                check_injection(i, injection, observed.observer.order(), plant)?;
+            }
         }
         Ok(Self { plant, observers: observers.to_vec(), inputs })
     }
 
     /// Number of states of plant and observers together.
     pub(super) fn order(&self) -> usize {
-        self.plant.order() + self.observers.iter().map(|o| o.order()).sum::<usize>()
+        self.plant.order() + self.observers.iter().map(|o| o.observer.order()).sum::<usize>()
     }
 
     /// Number of signals of all kinds.
@@ -93,63 +91,76 @@ impl<'a> Joint<'a> {
         }
     }
 
-    /// All signals at time `t`, finite or not.
-    pub(super) fn values(&self, t: f64) -> Values {
-        let mut values = self.silence();
+    /// Reads all signals at time `t`, finite or not.
+    pub(super) fn read(&self, t: f64, values: &mut Values) {
         self.inputs.known.value(t, values.u.as_mut_slice());
         self.inputs.unknown.value(t, values.d.as_mut_slice());
         self.inputs.noise.value(t, values.v.as_mut_slice());
-        values
+    }
+
+    /// The first signal without a finite value.
+    pub(super) fn silent(&self, values: &Values, time: f64) -> Option<SimulationError> {
+        Self::first(values, |x| !x.is_finite()).map(|(signal, index)| SimulationError::Signal {
+            signal,
+            index,
+            time,
+        })
+    }
+
+    /// The name of the first signal that is too large to be followed.
+    pub(super) fn too_large(&self, values: &Values) -> Option<String> {
+        Self::first(values, |x| x.abs() > LARGEST_STATE)
+            .map(|(signal, index)| format!("{signal} {}", index + 1))
+    }
+
+    fn first(values: &Values, is: fn(&f64) -> bool) -> Option<(&'static str, usize)> {
+        let named =
+            [("known input", &values.u), ("unknown input", &values.d), ("measurement noise", &values.v)];
+        named.into_iter().find_map(|(signal, vector)| vector.iter().position(is).map(|index| (signal, index)))
     }
 
     /// All signals at time `t`.
     pub(super) fn finite_values(&self, t: f64) -> Result<Values, SimulationError> {
-        let values = self.values(t);
-        for (signal, vector) in
-            [("known input", &values.u), ("unknown input", &values.d), ("measurement noise", &values.v)]
-        {
-            if let Some(index) = vector.iter().position(|x| !x.is_finite()) {
-                return Err(SimulationError::Signal { signal, index, time: t });
-            }
-        }
-        Ok(values)
+        let mut values = self.silence();
+        self.read(t, &mut values);
+        self.silent(&values, t).map_or(Ok(values), Err)
     }
 
-    /// States, outputs and derivatives (discrete: next states) at one instant.
-    pub(super) fn evaluate(&self, at: &Frozen, w: &DVector<f64>, values: &Values) -> Evaluation {
-        let r = self.plant.order();
-        let system = self.plant.system();
-        let forcing = self.plant.forcing(&values.u, &values.d);
-        let x = self.plant.state(at, &w.rows(0, r).into_owned(), &forcing);
-        let y = &system.C * &x + &system.F * &values.d + &values.v;
-        let mut derivative = DVector::zeros(w.len());
-        derivative.rows_mut(0, r).copy_from(&self.plant.derivative(at, &x, &forcing));
-        let mut top = r;
-        for observer in &self.observers {
-            let order = observer.order();
-            let own = &observer.N * w.rows(top, order) + &observer.L * &y + &observer.H * &values.u;
-            derivative.rows_mut(top, order).copy_from(&own);
-            top += order;
-        }
-        Evaluation { x, y, derivative }
+    /// Whether an observer's estimate depends on itself through the nonlinearity.
+    pub(super) fn is_implicit(&self, observed: &Observed<'_>) -> bool {
+        observed.injection.zip(self.plant.nonlinear.as_ref()).is_some_and(|(injection, nonlinear)| {
+            sees(&nonlinear.seen, &injection.estimate, injection.estimate.amax())
+        })
     }
 
-    /// Constant coefficients `w' = M w + G [u; d; v]`, column by column from [`Self::evaluate`].
+    /// Whether all equations are linear with constant coefficients.
+    pub(super) fn is_linear_and_constant(&self) -> bool {
+        self.plant.is_linear_and_constant()
+    }
+
+    /// Constant coefficients `w' = M w + G [u; d; v]`, column by column.
     pub(super) fn coefficients(&self) -> (DMatrix<f64>, DMatrix<f64>) {
-        let at = self.plant.freeze(0.0);
-        let (order, silence) = (self.order(), self.silence());
-        let rest = DVector::zeros(order);
+        let mut evaluator = Evaluator::new(self, &vec![0.0; self.plant.system().n_states()]);
+        let mut column = |w: &[f64], values: Values| {
+            evaluator.values = values;
+            if evaluator.evaluate_given(0.0, w).is_err() {
+                evaluator.derivative.fill(f64::NAN);
+            }
+            evaluator.derivative.clone()
+        };
+        let order = self.order();
+        let mut unit = vec![0.0; order];
         let mut m = DMatrix::zeros(order, order);
         for j in 0..order {
-            let mut unit = rest.clone();
             unit[j] = 1.0;
-            m.set_column(j, &self.evaluate(&at, &unit, &silence).derivative);
+            m.set_column(j, &column(&unit, self.silence()));
+            unit[j] = 0.0;
         }
         let mut g = DMatrix::zeros(order, self.n_signals());
         for j in 0..self.n_signals() {
-            let mut unit = DVector::zeros(self.n_signals());
-            unit[j] = 1.0;
-            g.set_column(j, &self.evaluate(&at, &rest, &self.unstacked(&unit)).derivative);
+            let mut signal = DVector::zeros(self.n_signals());
+            signal[j] = 1.0;
+            g.set_column(j, &column(&unit, self.unstacked(&signal)));
         }
         (m, g)
     }
@@ -194,6 +205,32 @@ fn check(i: usize, observer: &LinearObserver, plant: &Plant) -> Result<(), Simul
     ];
     for (letter, matrix, needed, reason) in needed {
         let what = format!("{letter} of observer {}", i + 1);
+        if matrix.shape() != needed {
+            return Err(SimulationError::Shape { what, found: matrix.shape(), needed, reason });
+        }
+        if matrix.iter().any(|x| !x.is_finite()) {
+            return Err(SimulationError::NotFinite { what });
+        }
+    }
+    Ok(())
+}
+
+/// Checks that the nonlinearity can enter an observer as it says.
+fn check_injection(
+    i: usize,
+    injection: &Injection,
+    order: usize,
+    plant: &Plant,
+) -> Result<(), SimulationError> {
+    let Some(nonlinear) = &plant.nonlinear else {
+        return Err(SimulationError::NoNonlinearity { observer: i });
+    };
+    let (n, nf) = (plant.system().n_states(), nonlinear.term.n_components());
+    let reason = "it has a column for each component of f, and a row for each state that f enters";
+    for (name, matrix, needed) in
+        [("state", &injection.state, (order, nf)), ("estimate", &injection.estimate, (n, nf))]
+    {
+        let what = format!("the injection into the {name} of observer {}", i + 1);
         if matrix.shape() != needed {
             return Err(SimulationError::Shape { what, found: matrix.shape(), needed, reason });
         }

@@ -2,21 +2,27 @@
 
 mod constant;
 mod error;
+mod evaluator;
 mod index;
+mod jacobian;
 mod joint;
+mod motion;
+mod newton;
+mod observed;
 mod plant;
 mod record;
 mod run;
 mod scenario;
+mod singularity;
 mod trajectory;
 mod uncertainty;
-mod varying;
 
 pub use crate::numerics::integrate::{Signals, Silence};
 pub use error::SimulationError;
 pub use joint::Inputs;
+pub use observed::Observed;
 pub use plant::{InitialState, Plant};
-pub use run::{LARGEST_STATE, MOST_SAMPLES, MOST_STATES, Span, simulate};
+pub use run::{LARGEST_STATE, MOST_SAMPLES, MOST_STATES, Span, simulate, simulate_observed};
 pub use scenario::Scenario;
 pub use trajectory::{Method, ObserverTrajectory, Trajectory, rms};
 pub use uncertainty::Uncertainty;

@@ -6,17 +6,20 @@ use serde::{Deserialize, Serialize};
 use super::uncertainty::Varying;
 use super::{SimulationError, Uncertainty};
 use crate::numerics::{RankDecision, Tolerance, svd};
-use crate::system::{DescriptorSystem, TimeDomain};
+use crate::system::{DescriptorSystem, LipschitzTerm, Model, TimeDomain};
 
 /// A square descriptor system of index 1 in the singular value coordinates of `E`, ready to run.
 ///
 /// ```text
 /// E = U1 S V1',   U = [U1 U2], V = [V1 V2] orthogonal,   x = V1 xi + V2 eta
-/// S xi' = U1' (A(t) x + B u + D d)
-///     0 = U2' (A(t) x + B u + D d)       =>   eta = -A22(t)^-1 U2' (A(t) V1 xi + B u + D d),   A22 = U2' A V2
+/// S xi' = U1' (A(t) x + B u + G f(t, x) + D d)
+///     0 = U2' (A(t) x + B u + G f(t, x) + D d)
+/// linear:  eta = -A22(t)^-1 U2' (A(t) V1 xi + B u + D d),   A22 = U2' A V2
 /// ```
 ///
-/// `E` is constant, so the coordinates are; `A(t)` may vary, so `eta` is eliminated at every evaluation.
+/// `E` is constant, so the coordinates are; `A(t)` may vary, so `eta` is eliminated at every evaluation. Where `f`
+/// depends on `eta`, the algebraic equations are solved by Newton's method; index 1 then means that
+/// `A22 + U2' G df/dx V2` is regular along the motion.
 #[derive(Clone, Debug)]
 pub struct Plant {
     system: DescriptorSystem,
@@ -30,7 +33,41 @@ pub struct Plant {
     /// `V2`, n x (n - r).
     pub(super) algebraic_columns: DMatrix<f64>,
     index: RankDecision,
+    pub(super) nonlinear: Option<Nonlinear>,
     pub(super) tolerance: Tolerance,
+}
+
+/// The nonlinearity of a plant.
+#[derive(Clone, Debug)]
+pub(super) struct Nonlinear {
+    pub(super) term: LipschitzTerm,
+    /// For each state, whether `f` uses it.
+    pub(super) seen: Vec<bool>,
+    /// `U2' G`, (n - r) x nf.
+    pub(super) weights: DMatrix<f64>,
+    /// Whether `f` occurs in the algebraic equations.
+    pub(super) enters: bool,
+    /// Whether it occurs there with algebraic states.
+    pub(super) implicit: bool,
+}
+
+/// Entries below this part of the largest count as rounding of zero.
+const ZERO: f64 = 1e-14;
+
+impl Nonlinear {
+    fn new(term: LipschitzTerm, rows: &DMatrix<f64>, columns: &DMatrix<f64>) -> Self {
+        let weights = rows * &term.G;
+        let seen = term.states_seen();
+        let enters = weights.amax() > ZERO * term.G.amax();
+        let implicit = enters && sees(&seen, columns, 1.0);
+        Self { term, seen, weights, enters, implicit }
+    }
+}
+
+/// Whether a movement `matrix * v` of the states changes a state that `f` uses.
+pub(super) fn sees(seen: &[bool], matrix: &DMatrix<f64>, size: f64) -> bool {
+    let mut rows = matrix.row_iter().zip(seen);
+    rows.any(|(row, seen)| *seen && row.amax() > ZERO * size)
 }
 
 /// What became of a given initial state: `E x` is kept, the rest follows from the algebraic equations.
@@ -52,7 +89,7 @@ pub(super) struct Frozen {
 }
 
 impl Plant {
-    /// Prepares a system, and checks that it is square and of index 1.
+    /// Prepares a linear system, and checks that it is square and of index 1.
     ///
     /// # Tolerance
     /// The ranks of `E` and of `A22`, the latter relative to the norm of `A`.
@@ -68,11 +105,36 @@ impl Plant {
         uncertainty: Option<&Uncertainty>,
         tolerance: &Tolerance,
     ) -> Result<Self, SimulationError> {
+        Self::prepared(system, None, uncertainty, tolerance)
+    }
+
+    /// Prepares a system with its nonlinearity.
+    ///
+    /// Where the algebraic equations contain algebraic states within the nonlinearity, index 1 is decided where the
+    /// motion starts and on its way.
+    ///
+    /// # Errors
+    /// As [`Self::new`], and for a nonlinearity that does not fit the system.
+    pub fn of(
+        model: &Model,
+        uncertainty: Option<&Uncertainty>,
+        tolerance: &Tolerance,
+    ) -> Result<Self, SimulationError> {
+        Self::prepared(&model.system, model.lipschitz.as_ref(), uncertainty, tolerance)
+    }
+
+    fn prepared(
+        system: &DescriptorSystem,
+        term: Option<&LipschitzTerm>,
+        uncertainty: Option<&Uncertainty>,
+        tolerance: &Tolerance,
+    ) -> Result<Self, SimulationError> {
         let system = system.clone().checked()?;
         let (equations, states) = system.E.shape();
         if equations != states {
             return Err(SimulationError::NotSquare { equations, states });
         }
+        let term = term.map(|term| term.clone().checked(&system)).transpose()?;
         let varying = uncertainty.map_or(Ok(Vec::new()), |u| u.varying(&system.A))?;
         // E = U1 S V1'
         let e = svd(&system.E)?;
@@ -83,16 +145,14 @@ impl Plant {
         }
         let algebraic_rows = e.u.columns(r, states - r).transpose();
         let algebraic_columns = e.v.columns(r, states - r).into_owned();
+        let nonlinear = term
+            .filter(|term| term.n_components() > 0)
+            .map(|term| Nonlinear::new(term, &algebraic_rows, &algebraic_columns));
         // A22 = U2' A V2
-        let a22 = svd(&(&algebraic_rows * &system.A * &algebraic_columns))?.s;
-        let shape = (states - r, states - r);
-        let index = RankDecision::from_singular_values(shape, a22, system.A.norm(), tolerance);
-        if index.rank < states - r {
-            return Err(SimulationError::NotIndexOne {
-                algebraic: states - r,
-                smallest: index.smallest(),
-                threshold: index.threshold,
-            });
+        let a22 = &algebraic_rows * &system.A * &algebraic_columns;
+        let index = decided(&a22, system.A.norm(), tolerance)?;
+        if nonlinear.as_ref().is_none_or(|nonlinear| !nonlinear.implicit) {
+            regular(&index)?;
         }
         let columns = e.v.columns(0, r).into_owned();
         Ok(Self {
@@ -103,6 +163,7 @@ impl Plant {
             columns,
             algebraic_columns,
             index,
+            nonlinear,
             tolerance: *tolerance,
         })
     }
@@ -112,7 +173,7 @@ impl Plant {
         &self.system
     }
 
-    /// The decision that `A22` is regular at time zero, with its singular values.
+    /// The decision whether `A22` is regular at time zero, with its singular values.
     pub fn index_decision(&self) -> &RankDecision {
         &self.index
     }
@@ -131,9 +192,14 @@ impl Plant {
         self.system.time == TimeDomain::Discrete
     }
 
-    /// The same plant without its uncertainty.
-    pub(super) fn nominal(&self) -> Self {
-        Self { varying: Vec::new(), ..self.clone() }
+    /// Whether the algebraic equations contain algebraic states within the nonlinearity.
+    pub(super) fn is_implicit(&self) -> bool {
+        self.nonlinear.as_ref().is_some_and(|nonlinear| nonlinear.implicit)
+    }
+
+    /// Whether the equations are linear with constant coefficients.
+    pub(super) fn is_linear_and_constant(&self) -> bool {
+        self.varying.is_empty() && self.nonlinear.is_none()
     }
 
     /// `A(t)`.
@@ -157,9 +223,10 @@ impl Plant {
         Frozen { a, a22 }
     }
 
-    /// `B u + D d`.
-    pub(super) fn forcing(&self, u: &DVector<f64>, d: &DVector<f64>) -> DVector<f64> {
-        &self.system.B * u + &self.system.D * d
+    /// Writes `B u + D d`.
+    pub(super) fn forcing(&self, u: &DVector<f64>, d: &DVector<f64>, out: &mut DVector<f64>) {
+        out.gemv(1.0, &self.system.B, u, 0.0);
+        out.gemv(1.0, &self.system.D, d, 1.0);
     }
 
     /// The differential states `V1' x`.
@@ -167,21 +234,46 @@ impl Plant {
         self.columns.tr_mul(x)
     }
 
-    /// `x = V1 xi + V2 eta`; not finite where `A22` is exactly singular.
-    pub(super) fn state(&self, at: &Frozen, xi: &DVector<f64>, forcing: &DVector<f64>) -> DVector<f64> {
-        let mut x = &self.columns * xi;
-        if self.algebraic_rows.nrows() > 0 {
-            let mut eta = &self.algebraic_rows * (&at.a * &x + forcing);
-            if !at.a22.solve_mut(&mut eta) {
-                eta.fill(f64::NAN);
-            }
-            x.gemv(-1.0, &self.algebraic_columns, &eta, 1.0);
-        }
-        x
+    /// `V1`.
+    pub(super) fn differential_columns(&self) -> &DMatrix<f64> {
+        &self.columns
     }
 
-    /// `xi' = S^-1 U1' (A x + forcing)` (discrete: the next `xi`).
-    pub(super) fn derivative(&self, at: &Frozen, x: &DVector<f64>, forcing: &DVector<f64>) -> DVector<f64> {
-        &self.rows * (&at.a * x + forcing)
+    /// `S^-1 U1'`.
+    pub(super) fn differential_rows(&self) -> &DMatrix<f64> {
+        &self.rows
     }
+}
+
+impl Frozen {
+    /// `A(t)`.
+    pub(super) fn a(&self) -> &DMatrix<f64> {
+        &self.a
+    }
+
+    /// Solves `A22 eta = right` in place; false where `A22` is singular.
+    pub(super) fn solve(&self, right: &mut DVector<f64>) -> bool {
+        self.a22.solve_mut(right)
+    }
+}
+
+/// Whether `A22`, or its sum with the slope of the nonlinearity, is regular relative to the norm of `A`.
+pub(super) fn decided(
+    a22: &DMatrix<f64>,
+    norm: f64,
+    tolerance: &Tolerance,
+) -> Result<RankDecision, SimulationError> {
+    Ok(RankDecision::from_singular_values(a22.shape(), svd(a22)?.s, norm, tolerance))
+}
+
+/// Refuses a plant that is not of index 1.
+pub(super) fn regular(index: &RankDecision) -> Result<(), SimulationError> {
+    if index.rank == index.singular_values.len() {
+        return Ok(());
+    }
+    Err(SimulationError::NotIndexOne {
+        algebraic: index.singular_values.len(),
+        smallest: index.smallest(),
+        threshold: index.threshold,
+    })
 }

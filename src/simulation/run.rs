@@ -2,18 +2,31 @@
 
 use nalgebra::DVector;
 
+use super::evaluator::Evaluator;
 use super::joint::Joint;
+use super::motion::Work;
 use super::record::Record;
-use super::{InitialState, Inputs, Method, Plant, SimulationError, Trajectory, constant, varying};
-use crate::numerics::integrate::segments;
+use super::singularity::Singularity;
+use super::{InitialState, Inputs, Method, Observed, Plant, SimulationError, Trajectory, constant, motion};
+use crate::numerics::Watch;
+use crate::numerics::integrate::{Segment, segments};
 use crate::observer::LinearObserver;
+use crate::system::SampleRegion;
 
-/// A state, output or estimate beyond this ends a trajectory.
+/// A signal, state, output or estimate beyond this ends a trajectory.
 pub const LARGEST_STATE: f64 = 1e12;
 /// Most samples of a trajectory.
 pub const MOST_SAMPLES: usize = 100_000;
 /// Most states of plant and observers together.
 pub const MOST_STATES: usize = 400;
+/// Samples between two looks whether the simulation is still wanted.
+const BETWEEN_LOOKS: usize = 64;
+/// What a watch is told.
+pub(super) const STEP: &str = "simulation";
+/// Kinks between grid points up to which exact steps are faster than steps with error control.
+const MOST_CROSSINGS: usize = 32;
+/// Instants of a trajectory at which its Lipschitz constant is looked at.
+const LIPSCHITZ_SAMPLES: usize = 200;
 
 /// The instants of a trajectory: an even grid over `0..=horizon`.
 ///
@@ -48,22 +61,10 @@ impl Span {
     }
 }
 
-/// Simulates one plant with any number of observers beside it.
-///
-/// ```text
-/// E x' = A(t) x + B u + D d,   y = C x + F d + noise,   each observer driven by u and y
-/// ```
-///
-/// All observers see the same plant, the same inputs and the same noise. The initial state keeps `E x0`; its algebraic
-/// part follows from the inputs at time zero. Constant coefficients are integrated by the matrix exponential, varying
-/// ones by a stiff solver, discrete time by its recursion.
-///
-/// # Shapes
-/// `x0`: n; each `z0`: the order of its observer.
+/// Simulates one plant with any number of linear observers beside it; see [`simulate_observed`].
 ///
 /// # Errors
-/// [`SimulationError`], with the reason in words. An unstable plant or observer is no error: the trajectory ends before
-/// a value exceeds [`LARGEST_STATE`], and says so in its note.
+/// As [`simulate_observed`].
 pub fn simulate(
     plant: &Plant,
     observers: &[(&LinearObserver, &[f64])],
@@ -71,17 +72,42 @@ pub fn simulate(
     inputs: &Inputs<'_>,
     span: Span,
 ) -> Result<Trajectory, SimulationError> {
+    let observers: Vec<(Observed<'_>, &[f64])> =
+        observers.iter().map(|(observer, z0)| ((*observer).into(), *z0)).collect();
+    simulate_observed(plant, &observers, x0, inputs, span, &Watch::none())
+}
+
+/// Simulates one plant with any number of observers beside it.
+///
+/// ```text
+/// E x' = A(t) x + B u + G f(t, x) + D d,   y = C x + F d + noise,   each observer driven by u and y
+/// ```
+///
+/// All observers see the same plant, the same inputs and the same noise. The initial state keeps `E x0`; its algebraic
+/// part follows from the inputs at time zero, and where it has several solutions from what is given. Linear equations
+/// with constant coefficients are integrated by the matrix exponential, others by one-step methods with error control,
+/// discrete time by its recursion. `watch` is asked on the way.
+///
+/// # Shapes
+/// `x0`: n; each initial state of an observer: its order.
+///
+/// # Errors
+/// [`SimulationError`], with the reason in words. An unstable plant or observer is no error: the trajectory ends before
+/// a value exceeds [`LARGEST_STATE`], and says so in its note.
+pub fn simulate_observed(
+    plant: &Plant,
+    observers: &[(Observed<'_>, &[f64])],
+    x0: &[f64],
+    inputs: &Inputs<'_>,
+    span: Span,
+    watch: &Watch,
+) -> Result<Trajectory, SimulationError> {
     let grid = span.grid(plant.is_discrete())?;
-    let designs: Vec<&LinearObserver> = observers.iter().map(|(observer, _)| *observer).collect();
+    let designs: Vec<Observed<'_>> = observers.iter().map(|(observed, _)| *observed).collect();
     let joint = Joint::new(plant, &designs, *inputs)?;
-    let n = plant.system().n_states();
-    let found = n + observers.iter().map(|(o, _)| o.order()).sum::<usize>();
-    if found > MOST_STATES {
-        return Err(SimulationError::TooLarge { found, most: MOST_STATES });
-    }
-    check_vector("the initial state x0", x0, n)?;
-    for (i, (observer, z0)) in observers.iter().enumerate() {
-        check_vector(&format!("the initial state z0 of observer {}", i + 1), z0, observer.order())?;
+    check_states(plant, observers, x0)?;
+    if !watch.go_on(0.0, STEP) {
+        return Err(SimulationError::Cancelled);
     }
     let horizon = grid.last().copied().unwrap_or(0.0);
     let smallest = plant.smallest_a22(horizon)?;
@@ -93,25 +119,44 @@ pub fn simulate(
 
     let mut record = Record::new(&joint);
     let pieces = segments(&grid, inputs.jumps, inputs.kinks);
-    let first = pieces.first().map_or(0.0, |piece| piece.inside(0.0));
-    let initial = initial_state(&joint, x0, &xi, if plant.is_discrete() { 0.0 } else { first })?;
-    let work = if plant.is_discrete() {
-        (Method::Recursion, recursion(&joint, &grid, start, &mut record)?)
-    } else if plant.varies() {
-        (Method::Stiff, varying::run(&joint, &grid, &pieces, start, &mut record)?)
+    let first = if plant.is_discrete() { 0.0 } else { pieces.first().map_or(0.0, |piece| piece.inside(0.0)) };
+    let (evaluator, singularity, initial) = started(&joint, x0, &start, first)?;
+    let mut work = if plant.is_discrete() {
+        recursion((evaluator, singularity), &grid, start, &mut record, watch)
+    } else if joint.is_linear_and_constant() && crossings(&pieces) <= MOST_CROSSINGS {
+        exponential(evaluator, (&grid, &pieces), start, &mut record, watch)?
     } else {
-        let mut sample =
-            |index: usize, inside: f64, w: &DVector<f64>, at: &_| record.sample((grid[index], inside), at, w);
-        let (steps, overflow) = constant::run(&joint, &pieces, start, &mut sample)?;
-        if let (Some(t), None) = (overflow, &record.note) {
-            record.close(t, "a state");
-        }
-        (Method::Exponential, steps)
+        motion::run((evaluator, singularity), (&grid, &pieces), &start, &mut record, watch)
     };
-    match record.error.take() {
-        Some(error) => Err(error),
-        None => Ok(record.finish(initial, smallest, work)),
+    if let Some(error) = record.error.take() {
+        return Err(error);
     }
+    work.smallest = work.smallest.min(smallest);
+    let mut trajectory = record.finish(initial, &work);
+    trajectory.remarks.extend(lipschitz_remark(plant, &trajectory)?);
+    Ok(trajectory)
+}
+
+/// Kinks between grid points: each needs steps of a length of its own.
+fn crossings(pieces: &[Segment]) -> usize {
+    pieces.iter().flat_map(Segment::stops).filter(|(index, _)| index.is_none()).count()
+}
+
+fn check_states(
+    plant: &Plant,
+    observers: &[(Observed<'_>, &[f64])],
+    x0: &[f64],
+) -> Result<(), SimulationError> {
+    let n = plant.system().n_states();
+    let found = n + observers.iter().map(|(o, _)| o.observer.order()).sum::<usize>();
+    if found > MOST_STATES {
+        return Err(SimulationError::TooLarge { found, most: MOST_STATES });
+    }
+    check_vector("the initial state x0", x0, n)?;
+    for (i, (o, z0)) in observers.iter().enumerate() {
+        check_vector(&format!("the initial state z0 of observer {}", i + 1), z0, o.observer.order())?;
+    }
+    Ok(())
 }
 
 fn check_vector(what: &str, vector: &[f64], needed: usize) -> Result<(), SimulationError> {
@@ -129,36 +174,104 @@ fn check_vector(what: &str, vector: &[f64], needed: usize) -> Result<(), Simulat
     Ok(())
 }
 
-/// The consistent state with the same `E x`, and how far it is from the given one.
-fn initial_state(
-    joint: &Joint<'_>,
+/// The evaluator at the consistent start with the same `E x`, and how far that is from the given one.
+fn started<'a>(
+    joint: &'a Joint<'a>,
     x0: &[f64],
-    xi: &DVector<f64>,
+    start: &DVector<f64>,
     t: f64,
-) -> Result<InitialState, SimulationError> {
-    let values = joint.finite_values(t)?;
-    let forcing = joint.plant.forcing(&values.u, &values.d);
-    let x = joint.plant.state(&joint.plant.freeze(t), xi, &forcing);
+) -> Result<(Evaluator<'a>, Singularity, InitialState), SimulationError> {
+    let mut evaluator = Evaluator::new(joint, x0);
+    let mut singularity = Singularity::new();
+    if !evaluator.evaluate(t, start.as_slice()) {
+        let trouble = evaluator.trouble.take();
+        return Err(trouble.map_or(SimulationError::NoAlgebraicSolution { time: t }, |trouble| {
+            singularity.explain(t, trouble)
+        }));
+    }
+    singularity.meet(&mut evaluator, t)?;
+    evaluator.accept();
+    let x = &evaluator.x;
     let change = x.iter().zip(x0).map(|(new, old)| (new - old).abs()).fold(0.0, f64::max);
-    Ok(InitialState { given: x0.to_vec(), consistent: x.iter().copied().collect(), change })
+    let initial = InitialState { given: x0.to_vec(), consistent: x.iter().copied().collect(), change };
+    Ok((evaluator, singularity, initial))
 }
 
-/// `w[k+1] = M(k) w[k] + ...`, with the algebraic states eliminated at every step.
-fn recursion(
-    joint: &Joint<'_>,
+/// Exact steps of linear equations with constant coefficients.
+fn exponential<'a>(
+    mut evaluator: Evaluator<'a>,
+    (grid, pieces): (&[f64], &[Segment]),
+    start: DVector<f64>,
+    record: &mut Record<'a>,
+    watch: &Watch,
+) -> Result<Work, SimulationError> {
+    let (joint, mut count) = (evaluator.joint, 0_usize);
+    let mut sample = |index: usize, inside: f64, w: &DVector<f64>| {
+        count += 1;
+        if count.is_multiple_of(BETWEEN_LOOKS) && !watch.go_on(index as f32 / grid.len() as f32, STEP) {
+            record.stop(SimulationError::Cancelled);
+            return false;
+        }
+        if evaluator.evaluate(inside, w.as_slice()) {
+            return record.push(grid[index], w.as_slice(), &mut evaluator);
+        }
+        let trouble = evaluator.trouble.take();
+        record.stop(trouble.map_or(SimulationError::NoAlgebraicSolution { time: inside }, |trouble| {
+            Singularity::new().explain(inside, trouble)
+        }));
+        false
+    };
+    let (steps, overflow) = constant::run(joint, pieces, start, &mut sample)?;
+    if let (Some(t), None) = (overflow, &record.note) {
+        record.overflow(t);
+    }
+    Ok(Work { method: Method::Exponential, steps, smallest: f64::INFINITY })
+}
+
+/// `w[k+1] = F(k, w[k])`, with the algebraic states eliminated at every step.
+fn recursion<'a>(
+    (mut evaluator, mut singularity): (Evaluator<'a>, Singularity),
     grid: &[f64],
     start: DVector<f64>,
-    record: &mut Record<'_>,
-) -> Result<usize, SimulationError> {
-    let mut w = start;
+    record: &mut Record<'a>,
+    watch: &Watch,
+) -> Work {
+    let (mut w, mut steps) = (start, 0);
     for (k, t) in grid.iter().copied().enumerate() {
-        let at = joint.plant.freeze(t);
-        let values = joint.finite_values(t)?;
-        let found = joint.evaluate(&at, &w, &values);
-        if !record.push(t, &w, &values, &found) {
-            return Ok(k);
+        if k % BETWEEN_LOOKS == BETWEEN_LOOKS - 1 && !watch.go_on(k as f32 / grid.len() as f32, STEP) {
+            record.stop(SimulationError::Cancelled);
+            break;
         }
-        w = found.derivative;
+        steps = k;
+        if !evaluator.evaluate(t, w.as_slice()) {
+            let trouble = evaluator.trouble.take();
+            record.stop(trouble.map_or(SimulationError::NoAlgebraicSolution { time: t }, |trouble| {
+                singularity.explain(t, trouble)
+            }));
+            break;
+        }
+        if let Err(error) = singularity.meet(&mut evaluator, t) {
+            record.stop(error);
+            break;
+        }
+        evaluator.accept();
+        if !record.push(t, w.as_slice(), &mut evaluator) {
+            break;
+        }
+        w.copy_from(&evaluator.derivative);
     }
-    Ok(grid.len() - 1)
+    Work { method: Method::Recursion, steps, smallest: singularity.smallest() }
+}
+
+/// Whether the motion or an estimate came where the Lipschitz constant does not hold.
+fn lipschitz_remark(plant: &Plant, trajectory: &Trajectory) -> Result<Option<String>, SimulationError> {
+    let Some(nonlinear) = &plant.nonlinear else { return Ok(None) };
+    let states = [&trajectory.x].into_iter().chain(trajectory.observers.iter().map(|o| &o.x_hat));
+    let points = states.flat_map(|states| {
+        let times = trajectory.t.iter().copied();
+        times.zip(states.column_iter()).map(|(t, x)| (t, x.into_owned()))
+    });
+    let region = SampleRegion::Points(points.collect());
+    let found = nonlinear.term.sampled_constant(&region, LIPSCHITZ_SAMPLES, 1, &plant.tolerance)?;
+    Ok(found.exceeded.then(|| found.statement()))
 }

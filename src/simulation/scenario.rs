@@ -2,11 +2,11 @@
 
 use nalgebra::DVector;
 
-use super::{Inputs, Plant, SimulationError, Span, Trajectory, Uncertainty, simulate};
+use super::{Inputs, Observed, Plant, SimulationError, Span, Trajectory, Uncertainty, simulate_observed};
 use crate::expression::MAX_JUMPS;
-use crate::numerics::Tolerance;
+use crate::numerics::{Tolerance, Watch};
 use crate::observer::LinearObserver;
-use crate::system::{DescriptorSystem, Signal, TimeDomain};
+use crate::system::{DescriptorSystem, LipschitzTerm, Model, Signal, TimeDomain};
 
 /// What happens to a plant and its observers.
 ///
@@ -30,50 +30,83 @@ pub struct Scenario {
 }
 
 impl Scenario {
-    /// Simulates the plant with the observers beside it.
+    /// Simulates the plant with the observers beside it; `watch` can cancel it.
     ///
     /// # Errors
-    /// As [`simulate`].
+    /// As [`simulate_observed`].
     pub fn run(
         &self,
-        system: &DescriptorSystem,
-        observers: &[&LinearObserver],
+        model: &Model,
+        observers: &[Observed<'_>],
         tolerance: &Tolerance,
+        watch: &Watch,
     ) -> Result<Trajectory, SimulationError> {
         let active = self.uncertainty.as_ref().filter(|uncertainty| uncertainty.scale != 0.0);
-        let plant = Plant::new(system, active, tolerance)?;
-        let starts: Vec<Vec<f64>> = observers.iter().map(|observer| vec![0.0; observer.order()]).collect();
-        let observers: Vec<(&LinearObserver, &[f64])> =
+        let plant = Plant::of(model, active, tolerance)?;
+        let starts: Vec<Vec<f64>> = observers.iter().map(|o| vec![0.0; o.observer.order()]).collect();
+        let observers: Vec<(Observed<'_>, &[f64])> =
             observers.iter().zip(&starts).map(|(observer, z0)| (*observer, z0.as_slice())).collect();
-        let jumps = if system.time == TimeDomain::Discrete { Vec::new() } else { self.jumps()? };
+        let (mut jumps, mut kinks) = (Vec::new(), Vec::new());
+        if model.system.time == TimeDomain::Continuous {
+            jumps = self.jumps(model.lipschitz.as_ref())?;
+            kinks = self.kinks(model.lipschitz.as_ref());
+        }
         let inputs = Inputs {
             known: &|t: f64, out: &mut [f64]| values(&self.u, t, out),
             unknown: &|t: f64, out: &mut [f64]| values(&self.d, t, out),
             noise: &|t: f64, out: &mut [f64]| values(&self.noise, t, out),
             jumps: &jumps,
-            kinks: &[],
+            kinks: &kinks,
         };
         let span = Span { horizon: self.horizon, samples: self.samples };
-        simulate(&plant, &observers, self.x0.as_slice(), &inputs, span)
+        simulate_observed(&plant, &observers, self.x0.as_slice(), &inputs, span, watch)
     }
 
-    /// All instants at which a signal jumps, sorted.
-    fn jumps(&self) -> Result<Vec<f64>, SimulationError> {
+    /// Simulates a linear plant with linear observers beside it.
+    ///
+    /// # Errors
+    /// As [`Self::run`].
+    pub fn run_linear(
+        &self,
+        system: &DescriptorSystem,
+        observers: &[&LinearObserver],
+        tolerance: &Tolerance,
+    ) -> Result<Trajectory, SimulationError> {
+        let observers: Vec<Observed<'_>> = observers.iter().map(|observer| (*observer).into()).collect();
+        self.run(&Model::from(system.clone()), &observers, tolerance, &Watch::none())
+    }
+
+    /// All instants at which a signal, or the nonlinearity in time alone, jumps, sorted.
+    fn jumps(&self, term: Option<&LipschitzTerm>) -> Result<Vec<f64>, SimulationError> {
+        let signals = self.signals().map(|signal| (signal.text(), signal.jumps(0.0, self.horizon)));
+        let nonlinear = term.into_iter().flat_map(|term| &term.f);
+        let nonlinear = nonlinear.map(|f| (f.text(), f.jumps(0.0, self.horizon)));
         let mut jumps = Vec::new();
-        for signal in self.u.iter().chain(&self.d).chain(&self.noise) {
-            let found = signal.jumps(0.0, self.horizon);
+        for (text, found) in signals.chain(nonlinear) {
             if found.len() >= MAX_JUMPS {
-                return Err(SimulationError::TooManyJumps {
-                    signal: signal.text().to_owned(),
-                    limit: MAX_JUMPS,
-                });
+                return Err(SimulationError::TooManyJumps { signal: text.to_owned(), limit: MAX_JUMPS });
             }
             jumps.extend(found);
         }
-        jumps.sort_by(f64::total_cmp);
-        jumps.dedup();
-        Ok(jumps)
+        Ok(sorted(jumps))
     }
+
+    /// All instants at which a signal, or the nonlinearity in time alone, is not smooth, sorted.
+    fn kinks(&self, term: Option<&LipschitzTerm>) -> Vec<f64> {
+        let signals = self.signals().flat_map(|signal| signal.kinks(0.0, self.horizon));
+        let nonlinear = term.into_iter().flat_map(|term| &term.f);
+        sorted(signals.chain(nonlinear.flat_map(|f| f.kinks(0.0, self.horizon))).collect())
+    }
+
+    fn signals(&self) -> impl Iterator<Item = &Signal> {
+        self.u.iter().chain(&self.d).chain(&self.noise)
+    }
+}
+
+fn sorted(mut instants: Vec<f64>) -> Vec<f64> {
+    instants.sort_by(f64::total_cmp);
+    instants.dedup();
+    instants
 }
 
 fn values(signals: &[Signal], t: f64, out: &mut [f64]) {

@@ -11,8 +11,10 @@ use super::InitialState;
 pub enum Method {
     /// Matrix exponential: constant coefficients.
     Exponential,
-    /// BDF: coefficients that vary in time.
-    Stiff,
+    /// Explicit one-step method of order 5: coefficients that vary in time, a nonlinearity, many kinks.
+    Explicit,
+    /// Linearly implicit one-step method of order 5, which has taken over because of stiffness.
+    Implicit,
     /// The difference equation itself.
     Recursion,
 }
@@ -36,7 +38,8 @@ pub struct Trajectory {
     pub observers: Vec<ObserverTrajectory>,
     /// What became of the given initial state.
     pub initial_state: InitialState,
-    /// Smallest singular value of `A22(t)` over the horizon; infinite for a plant without algebraic equations.
+    /// Smallest singular value of `A22(t)` (nonlinear: of `A22 + U2' G df/dx V2`) over the horizon; infinite for a plant
+    /// without algebraic equations.
     pub smallest_a22: f64,
     /// How the equations were integrated.
     pub method: Method,
@@ -44,6 +47,9 @@ pub struct Trajectory {
     pub steps: usize,
     /// Why the trajectory ends early, if it does.
     pub note: Option<String>,
+    /// What a person should know about the equations: output equations that do not contract, a Lipschitz constant that
+    /// is exceeded.
+    pub remarks: Vec<String>,
 }
 
 /// One observer beside the plant.
@@ -59,6 +65,9 @@ pub struct ObserverTrajectory {
     pub e: DMatrix<f64>,
     /// Error of the unknown input `d - d_hat`, as many rows as `d_hat`.
     pub e_d: DMatrix<f64>,
+    /// For an estimate that depends on itself through the nonlinearity: the largest factor by which its equation
+    /// stretches a difference; below 1 there is one estimate only.
+    pub contraction: Option<f64>,
 }
 
 impl Trajectory {

@@ -6,11 +6,13 @@ mod model;
 mod network;
 mod partition;
 pub mod properties;
+mod sampled_constant;
 mod signal;
 
 pub use descriptor::{DescriptorSystem, SystemError, TimeDomain};
-pub use lipschitz::{LipschitzTerm, nonlinearity};
+pub use lipschitz::{LipschitzError, LipschitzTerm, nonlinearity};
 pub use model::Model;
 pub use network::Network;
 pub use partition::{PartitionError, Subsystem, check_partition};
+pub use sampled_constant::{LargestRatio, SampleRegion, SampledConstant};
 pub use signal::Signal;

@@ -32,6 +32,11 @@ impl Signal {
         self.0.jumps(from, to)
     }
 
+    /// The instants between `from` and `to` at which the signal is continuous but not smooth.
+    pub fn kinks(&self, from: f64, to: f64) -> Vec<f64> {
+        self.0.kinks(from, to)
+    }
+
     /// Whether the signal is zero at all times.
     pub fn is_zero(&self) -> bool {
         self.0.is_zero()

@@ -7,7 +7,7 @@ use crate::simulation::{Method, Trajectory};
 
 /// Adds time, signals, states and estimates; matrices have a row for each component and a column for each instant.
 pub(super) fn put(map: &mut Map<String, Value>, trajectory: &Trajectory) {
-    let Trajectory { t, u, d, y, x, observers, initial_state, smallest_a22, method, steps, note } =
+    let Trajectory { t, u, d, y, x, observers, initial_state, smallest_a22, method, steps, note, remarks } =
         trajectory;
     let mut put = |key: &str, value: Value| {
         map.insert(key.to_owned(), value);
@@ -17,7 +17,8 @@ pub(super) fn put(map: &mut Map<String, Value>, trajectory: &Trajectory) {
         json!({
             "method": match method {
                 Method::Exponential => "matrix exponential",
-                Method::Stiff => "stiff integrator",
+                Method::Explicit => "explicit one-step method",
+                Method::Implicit => "implicit one-step method",
                 Method::Recursion => "recursion",
             },
             "steps": steps,
@@ -33,6 +34,7 @@ pub(super) fn put(map: &mut Map<String, Value>, trajectory: &Trajectory) {
         }),
     );
     put("note", json!(note));
+    put("remarks", json!(remarks));
     put("t", numbers(t));
     for (key, values) in [("u", u), ("d", d), ("y", y), ("x", x)] {
         put(key, matrix(values));
@@ -44,6 +46,7 @@ pub(super) fn put(map: &mut Map<String, Value>, trajectory: &Trajectory) {
             "d_hat": matrix(&o.d_hat),
             "e": matrix(&o.e),
             "e_d": matrix(&o.e_d),
+            "contraction": o.contraction.map(number),
         })
     };
     put("observers", observers.iter().map(observer).collect());

@@ -1,12 +1,17 @@
-//! Initial value problems `w' = M(t) w + forcing(t)`: exactly where `M` is constant, by a stiff solver where not.
+//! Initial value problems: exactly where they are linear with constant coefficients, by one-step methods where not.
 
+mod adaptive;
+mod dense;
+mod explicit;
 mod exponential;
+mod implicit;
 mod schedule;
-mod stiff;
 
+use nalgebra::DMatrix;
+
+pub use adaptive::{Ending, Integrator, StepOptions};
 pub use exponential::{NODES, Propagator, exponential};
 pub use schedule::{Segment, segments};
-pub use stiff::{StiffOptions, StiffOutcome, stiff_segment};
 
 /// A vector of signals as a function of time.
 pub trait Signals {
@@ -30,14 +35,18 @@ impl Signals for Silence {
     }
 }
 
-/// Linear differential equations with forcing, `w' = M(t) w + forcing(t)`.
-pub trait AffineFlow {
-    /// Number of states.
-    fn order(&self) -> usize;
-    /// The derivative `M(t) w + forcing(t)`.
-    fn derivative(&self, t: f64, state: &[f64], out: &mut [f64]);
-    /// The Jacobian times a direction, `M(t) v`.
-    fn product(&self, t: f64, direction: &[f64], out: &mut [f64]);
+/// Differential equations `w' = F(t, w)`, and what is to be done with their solution.
+///
+/// A value that does not exist is answered by false: the step is then repeated with a smaller one.
+pub trait Flow {
+    /// Writes `F(t, w)`; false where it has no value.
+    fn derivative(&mut self, t: f64, state: &[f64], out: &mut [f64]) -> bool;
+    /// Writes the Jacobian `dF/dw`; false where it has no value.
+    fn jacobian(&mut self, t: f64, state: &[f64], out: &mut DMatrix<f64>) -> bool;
+    /// Takes the state at a sample; false ends the integration.
+    fn sample(&mut self, index: usize, t: f64, state: &[f64]) -> bool;
+    /// Takes the state after a step; false ends the integration.
+    fn accepted(&mut self, t: f64, state: &[f64]) -> bool;
 }
 
 /// An integration that could not be completed.
@@ -59,12 +68,13 @@ pub enum IntegrationError {
         /// The limit.
         limit: usize,
     },
-    /// The solver gave up.
-    #[error("the stiff solver stopped at t = {time:?}: {reason}")]
-    Solver {
+    /// Steps that become too small: the solution ends, or something in it is too rough to be followed.
+    #[error(
+        "no step leads beyond t = {time:?}: the solution ends there, or an input or the nonlinearity is too rough \
+         to be followed"
+    )]
+    Collapsed {
         /// Time that was reached.
         time: f64,
-        /// The solver's own words.
-        reason: String,
     },
 }

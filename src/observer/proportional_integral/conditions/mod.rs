@@ -37,7 +37,7 @@ pub fn conditions(
         return Ok(result);
     }
     if !exists {
-        for (label, name) in [("(11)", "left inverse"), ("(13)", "observability of the design pair")] {
+        for (label, name) in [("(11)", "left inverse"), ("(13)", pairs::NAME_13)] {
             result.push(undecided(
                 label,
                 name,
@@ -47,9 +47,16 @@ pub fn conditions(
         return Ok(result);
     }
     let equivalent = restricted(system, tolerance)?;
-    result.push(ask.condition_11(&equivalent)?);
+    let eleven = ask.condition_11(&equivalent)?;
+    let inverse = eleven.verdict.holds();
+    result.push(eleven);
     match order {
-        Order::Full => result.push(ask.condition_13(&equivalent)?),
+        Order::Full if inverse => result.push(ask.condition_13(&equivalent)?),
+        Order::Full => result.push(undecided(
+            "(13)",
+            pairs::NAME_13,
+            "its T1 is part of the left inverse, which (11) does not give",
+        )),
         Order::Reduced => result.extend(ask.conditions_22_23(&equivalent)?),
         Order::General | Order::Minimal => {}
     }

@@ -3,12 +3,17 @@
 
 use nalgebra::DMatrix;
 
-use super::{Ask, condition, evidence};
+use super::{Ask, condition, evidence, undecided};
 use crate::numerics::{PbhMode, StabilityRegion, pbh_modes};
 use crate::observer::proportional_integral::{Equivalent, full_order, hold, reduced_order};
 use crate::observer::{Condition, Evidence, PointEvidence, Verdict, Witness};
 use crate::system::TimeDomain;
 use crate::system::properties::PropertyError;
+
+/// What (13) is called.
+pub(super) const NAME_13: &str = "detectability of the design pair";
+/// What (23) is called.
+const NAME_23: &str = "detectability of the reduced pair";
 
 impl Ask<'_> {
     fn discrete(&self) -> bool {
@@ -22,7 +27,7 @@ impl Ask<'_> {
         let (A, C) = full_order::pair(equivalent, hold(self.system.time), self.tolerance)?;
         let mut result = condition(
             "(13)",
-            "detectability of the design pair",
+            NAME_13,
             if self.discrete() {
                 "rank [zI-T1A -T1N; 0 (z-1)I; C 0] = n + nf for all |z| >= 1"
             } else {
@@ -44,10 +49,14 @@ impl Ask<'_> {
         first.verdict = Verdict::of(decision.rank == needed, decision.fragile);
         first.summary = format!("rank {} of {needed} needed", decision.rank);
         first.evidence = vec![evidence("C2 = C P1", decision, needed)];
+        if !first.verdict.holds() {
+            let why = "its matrices are built on the left inverse of C2, which (22) does not give";
+            return Ok(vec![first, undecided("(23)", NAME_23, why)]);
+        }
         let (A, C) = reduced_order::pair(equivalent, &reduction, hold(self.system.time));
         let mut second = condition(
             "(23)",
-            "detectability of the reduced pair",
+            NAME_23,
             if self.discrete() {
                 "rank [zI-Ar -N; 0 (z-1)I; P3C1 0] = r + nf for all |z| >= 1"
             } else {

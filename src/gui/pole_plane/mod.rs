@@ -1,8 +1,10 @@
 //! The complex plane: wished poles to drag, achieved poles over them, fixed modes, eigenvalues of the plant.
 
-use egui::{Align2, FontId, Id, Key, Pos2, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, vec2};
+mod ground;
 
-use super::plot::{multiples, round_step, short};
+use egui::{Align2, FontId, Id, Key, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2, vec2};
+
+use super::plot::round_step;
 use super::{Output, theme};
 use crate::document::PlantData;
 use crate::numerics::Complex64;
@@ -32,6 +34,10 @@ pub struct Poles {
     pub fixed: Vec<Complex64>,
     /// Finite eigenvalues of the plant.
     pub plant: Vec<Complex64>,
+    /// The design is by matrix inequalities: there are no wishes, only a region.
+    pub by_region: bool,
+    /// The demand on the decay, which bounds the region.
+    pub decay: Option<f64>,
 }
 
 impl Poles {
@@ -43,10 +49,13 @@ impl Poles {
             PlantData::Network(_) => false,
         };
         let scale = document.design.scale;
+        let by_region = document.design.method.uses_lmi();
         // undoing the inverse scale is scaling
-        let wished: Vec<Complex64> =
-            document.design.poles.iter().map(|pole| scaled_pole(*pole, scale, discrete)).collect();
-        let mut poles = Self { discrete, scale, used: wished.len(), wished, ..Self::default() };
+        let listed = document.design.poles.iter().filter(|_| !by_region);
+        let wished: Vec<Complex64> = listed.map(|pole| scaled_pole(*pole, scale, discrete)).collect();
+        let decay = document.design.lmi.decay.filter(|_| by_region);
+        let mut poles =
+            Self { discrete, scale, used: wished.len(), wished, by_region, decay, ..Self::default() };
         if let Some(analysis) = derived.analysis() {
             poles.plant.clone_from(&analysis.plant_eigenvalues);
             if let Some(design) = analysis.assessment.as_ref().ok().and_then(|a| a.outcome.as_ref().ok()) {
@@ -60,7 +69,8 @@ impl Poles {
 
     /// The smallest rectangle that a view must show: `[re low, re high, im half]`.
     fn needed(&self) -> [f64; 3] {
-        let own = self.wished[..self.used].iter().chain(&self.achieved).chain(&self.fixed);
+        let border = self.decay.filter(|_| !self.discrete).map(|decay| Complex64::from(-decay));
+        let own = self.wished[..self.used].iter().chain(&self.achieved).chain(&self.fixed).chain(&border);
         let far = own.clone().map(|z| z.norm()).fold(0.0, f64::max);
         // a fast mode of the plant must not press the observer's poles into one point
         let plant = self.plant.iter().filter(|z| z.norm() <= 3.0 * far.max(1e-3));
@@ -147,8 +157,8 @@ pub fn pole_plane_ui(ui: &mut Ui, session: &Session, derived: &Derived, size: Ve
         _ => View::fit(needed, size),
     };
     memory.view = Some(view);
-    background(ui, rect, &view, poles.discrete);
-    marks(ui, rect, &view, &poles);
+    ground::background(ui, rect, &view, &poles);
+    ground::marks(ui, rect, &view, &poles);
     let plane = Plane { poles: &poles, view, rect };
     plane.pointer(ui, &response, &mut memory, out);
     let focused = plane.nodes(ui, response.id, &mut memory, out);
@@ -304,6 +314,8 @@ impl Plane<'_> {
             format!("fixed mode {}", show(fixed))
         } else if let Some(unused) = near(&self.poles.wished[self.poles.used..]) {
             format!("{} waits: this order uses {} poles", show(unused), self.poles.used)
+        } else if let Some(achieved) = near(&self.poles.achieved).filter(|_| self.poles.by_region) {
+            format!("mode of the error {}", show(achieved))
         } else if let Some(plant) = near(&self.poles.plant) {
             format!("eigenvalue of the plant {}", show(plant))
         } else {
@@ -322,62 +334,6 @@ impl Plane<'_> {
 
 fn node_id(plane: Id, k: usize) -> Id {
     plane.with(("pole", k))
-}
-
-/// The unstable region, the grid, the axes and the unit circle.
-fn background(ui: &Ui, rect: Rect, view: &View, discrete: bool) {
-    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
-    let plain = ui.visuals().extreme_bg_color;
-    let unstable = theme::bad(ui).gamma_multiply(0.09);
-    let origin = view.screen(Complex64::new(0.0, 0.0), rect);
-    painter.rect_filled(rect, 4.0, plain);
-    let border = Stroke::new(1.2, theme::bad(ui).gamma_multiply(0.6));
-    if discrete {
-        #[expect(clippy::cast_possible_truncation, reason = "screen coordinates")]
-        let radius = (1.0 / view.per_point).min(1e5) as f32;
-        painter.rect_filled(rect, 4.0, unstable);
-        painter.circle_filled(origin, radius, plain);
-        painter.circle_stroke(origin, radius, border);
-    } else if origin.x < rect.right() {
-        let right = Rect::from_min_max(Pos2::new(origin.x.max(rect.left()), rect.top()), rect.max);
-        painter.rect_filled(right, 0.0, unstable);
-        painter.vline(origin.x, rect.y_range(), border);
-    }
-    let step = round_step(70.0 * view.per_point);
-    let faint = Stroke::new(1.0, theme::faint(ui).gamma_multiply(0.22));
-    let axis = Stroke::new(1.0, theme::faint(ui).gamma_multiply(0.7));
-    let font = FontId::proportional(11.0);
-    let low = view.value(rect.left_bottom(), rect);
-    let high = view.value(rect.right_top(), rect);
-    for value in multiples(step, low.re, high.re) {
-        let x = view.screen(Complex64::new(value, 0.0), rect).x;
-        painter.vline(x, rect.y_range(), if value == 0.0 { axis } else { faint });
-        let at = Pos2::new(x + 3.0, rect.bottom() - 2.0);
-        painter.text(at, Align2::LEFT_BOTTOM, short(value), font.clone(), theme::faint(ui));
-    }
-    for value in multiples(step, low.im, high.im) {
-        let y = view.screen(Complex64::new(0.0, value), rect).y;
-        painter.hline(rect.x_range(), y, if value == 0.0 { axis } else { faint });
-        if value != 0.0 {
-            let at = Pos2::new(rect.right() - 4.0, y - 1.0);
-            let text = format!("{}i", short(value));
-            painter.text(at, Align2::RIGHT_BOTTOM, text, font.clone(), theme::faint(ui));
-        }
-    }
-    painter.rect_stroke(rect, 4.0, ui.visuals().widgets.noninteractive.bg_stroke, StrokeKind::Inside);
-}
-
-/// Eigenvalues of the plant as squares, fixed modes as rings.
-fn marks(ui: &Ui, rect: Rect, view: &View, poles: &Poles) {
-    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
-    let square = Stroke::new(1.4, theme::faint(ui));
-    for plant in &poles.plant {
-        let mark = Rect::from_center_size(view.screen(*plant, rect), Vec2::splat(9.0));
-        painter.rect_stroke(mark, 0.0, square, StrokeKind::Middle);
-    }
-    for fixed in &poles.fixed {
-        painter.circle_stroke(view.screen(*fixed, rect), 6.5, Stroke::new(2.0, theme::near(ui)));
-    }
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use egui::{RichText, Sense, Stroke, Ui, vec2};
 
-use super::{Output, Widgets, formula, theme};
+use super::super::{Output, Widgets, formula, theme};
 use crate::numerics::RankDecision;
 use crate::observer::{Condition, Evidence, Verdict, show as show_number};
 use crate::paper::errata;
@@ -97,7 +97,8 @@ fn why(ui: &mut Ui, condition: &Condition, out: &mut Output) {
     for evidence in &condition.evidence {
         evidence_row(ui, evidence);
     }
-    for erratum in errata("004").filter(|erratum| erratum.concerns == condition.id) {
+    let paper = condition.id.split('-').next().unwrap_or_default();
+    for erratum in errata(paper).filter(|erratum| erratum.concerns == condition.id) {
         formula::remark(
             ui,
             &format!(

@@ -2,50 +2,21 @@
 
 use egui::{RichText, Ui};
 
-use super::{formula, theme};
+use super::super::{formula, theme};
 use crate::document::{MatrixSyntax, matrix_to_text};
-use crate::observer::{Assessment, Design, NamedMatrix};
+use crate::observer::{Design, Method, NamedMatrix};
 use crate::paper::errata;
 
-/// Draws the badge of an assessment: what came of the design, in words.
-pub(super) fn badge(ui: &mut Ui, assessment: &Assessment) {
-    let (colour, word, sentence) = match &assessment.outcome {
-        Ok(design) if design.verification.verified() => {
-            (theme::good(ui), "verified", format!("{}: every check passed", design.title))
-        }
-        Ok(design) => {
-            let failed: Vec<&str> = design.verification.failures().map(|check| check.name.as_str()).collect();
-            (
-                theme::near(ui),
-                "not verified",
-                format!("{}: the check of {} fails", design.title, failed.join(", ")),
-            )
-        }
-        Err(error) if error.is_bad_input() => (theme::near(ui), "poles needed", error.to_string()),
-        Err(error) => (theme::bad(ui), "does not exist", error.to_string()),
-    };
-    egui::Frame::new().stroke(egui::Stroke::new(1.5, colour)).corner_radius(5.0).inner_margin(7.0).show(
-        ui,
-        |ui| {
-            ui.set_min_width(ui.available_width());
-            ui.horizontal_wrapped(|ui| {
-                ui.label(RichText::new(word).color(colour).strong());
-                ui.label(sentence);
-            });
-        },
-    );
-}
-
 /// Draws the gains, the checks and the notes of a design.
-pub(super) fn show(ui: &mut Ui, design: &Design) {
+pub(super) fn show(ui: &mut Ui, method: Method, design: &Design) {
     for note in &design.notes {
         ui.label(RichText::new(note).small().color(theme::near(ui)));
     }
     egui::CollapsingHeader::new("Gains").default_open(true).show(ui, |ui| {
         for matrix in &design.matrices {
-            named_matrix(ui, matrix);
+            named_matrix(ui, method, matrix);
         }
-        formula::remark(ui, "Observer: z' = F z + (L1 + L2) y + J u + T1 N f_hat, f_hat' = L3 (y - C x_hat), x_hat = M1 z + T2 y, where y = [-B1 u; y*] holds the algebraic equations and the measurements.");
+        formula::remark(ui, equations(method));
     });
     egui::CollapsingHeader::new("Verification").default_open(false).show(ui, |ui| {
         for check in &design.verification.checks {
@@ -66,7 +37,34 @@ pub(super) fn show(ui: &mut Ui, design: &Design) {
     });
 }
 
-fn named_matrix(ui: &mut Ui, matrix: &NamedMatrix) {
+/// The observer in the letters of its paper.
+fn equations(method: Method) -> &'static str {
+    match method {
+        Method::Proportional | Method::ProportionalIntegral => {
+            "Observer: z' = F z + (L1 + L2) y + J u + T1 N f_hat, f_hat' = L3 (y - C x_hat), x_hat = M1 z + T2 y, where \
+             y = [-B1 u; y*] holds the algebraic equations and the measurements."
+        }
+        Method::HInfinity => {
+            "Observer: z' = N z + J y + H u + T G f(x_hat), x_hat = P z - Q Phi B u + F y - Q Phi G f(x_hat): the estimate \
+             stands on both sides and is found by iteration, which converges by the guarantee."
+        }
+        Method::Decentralized => {
+            "Each subsystem: xi' = N xi + M u + J z, x_hat = P xi - Q Phi B u + F z (in discrete time xi[k+1]), where z are \
+             its own outputs."
+        }
+    }
+}
+
+/// The paper that a method comes from.
+fn paper(method: Method) -> &'static str {
+    match method {
+        Method::Proportional | Method::ProportionalIntegral => "004",
+        Method::HInfinity => "002",
+        Method::Decentralized => "000",
+    }
+}
+
+fn named_matrix(ui: &mut Ui, method: Method, matrix: &NamedMatrix) {
     ui.horizontal(|ui| {
         ui.label(RichText::new(&matrix.name).strong());
         formula::remark(ui, &matrix.meaning);
@@ -94,7 +92,9 @@ fn named_matrix(ui: &mut Ui, matrix: &NamedMatrix) {
             });
         },
     );
-    for erratum in errata("004").filter(|erratum| erratum.concerns == matrix.name) {
+    // a local observer's matrix carries the name of its subsystem: `N (first)`
+    let letter = matrix.name.split(" (").next().unwrap_or_default();
+    for erratum in errata(paper(method)).filter(|erratum| erratum.concerns == letter) {
         formula::remark(
             ui,
             &format!(

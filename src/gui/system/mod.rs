@@ -1,9 +1,14 @@
-//! This system: title, time, sizes, matrices, properties.
+//! This system: title, time, sizes, matrices, nonlinearity, subsystems, properties.
+
+mod decoupled;
+mod lipschitz;
+mod partition;
 
 use egui::{RichText, Ui};
 
+use super::entry_grid::pasted_block;
 use super::{Output, Widgets, matrix_grid, theme};
-use crate::document::{DescriptorData, Document, EntryMatrix, Matrix, PlantData, matrix_from_text};
+use crate::document::{DescriptorData, Document, EntryMatrix, Matrix, PlantData};
 use crate::session::{Derived, Edit, Session, Size};
 use crate::system::TimeDomain;
 
@@ -23,6 +28,8 @@ pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Wid
                 matrix_grid::show_pair(ui, session, data, pair, widgets, out);
                 ui.add_space(theme::ITEM_GAP);
             }
+            lipschitz::show(ui, session, derived, widgets, out);
+            partition::show(ui, session, data, out);
         }
         PlantData::Network(_) => {
             ui.label("This document holds a network of subsystems; its expanded matrices are used.");
@@ -60,15 +67,18 @@ fn heading(ui: &mut Ui, document: &Document, out: &mut Output) {
 }
 
 fn equations(ui: &mut Ui, data: &DescriptorData) {
-    let derivative = match data.time {
-        TimeDomain::Continuous => "E x' = A x + B u + D d",
-        TimeDomain::Discrete => "E x[k+1] = A x[k] + B u[k] + D d[k]",
+    let discrete = data.time == TimeDomain::Discrete;
+    let nonlinear = match (&data.lipschitz, discrete) {
+        (None, _) => "",
+        (Some(_), false) => " + G f(x)",
+        (Some(_), true) => " + G f(x[k])",
     };
-    let output = match data.time {
-        TimeDomain::Continuous => "y = C x + F d",
-        TimeDomain::Discrete => "y[k] = C x[k] + F d[k]",
+    let (dynamics, output) = if discrete {
+        (format!("E x[k+1] = A x[k] + B u[k]{nonlinear} + D d[k]"), "y[k] = C x[k] + F d[k]")
+    } else {
+        (format!("E x' = A x + B u{nonlinear} + D d"), "y = C x + F d")
     };
-    ui.label(RichText::new(format!("{derivative},   {output}")).monospace());
+    ui.label(RichText::new(format!("{dynamics},   {output}")).monospace());
 }
 
 fn time_and_sizes(ui: &mut Ui, data: &DescriptorData, out: &mut Output) {
@@ -101,26 +111,35 @@ fn time_and_sizes(ui: &mut Ui, data: &DescriptorData, out: &mut Output) {
 
 /// A number with buttons for one fewer and one more.
 fn stepper(ui: &mut Ui, of: Size, name: &str, count: usize, out: &mut Output) {
+    if let Some(grow) = steps(ui, name, name, count) {
+        out.edit(Edit::Size { of, grow });
+    }
+}
+
+/// Draws a number with its buttons, called `Fewer` and `More` of `label`; whether one more is wanted.
+fn steps(ui: &mut Ui, label: &str, shown: &str, count: usize) -> Option<bool> {
+    let mut clicked = None;
     egui::Frame::new().fill(ui.visuals().faint_bg_color).corner_radius(4.0).inner_margin(3.0).show(
         ui,
         |ui| {
             ui.horizontal(|ui| {
                 for (symbol, grow, word) in [("-", false, "Fewer"), ("+", true, "More")] {
                     let response = ui.add(egui::Button::new(symbol).min_size(egui::vec2(24.0, 24.0)));
-                    response
-                        .ctx
-                        .accesskit_node_builder(response.id, |node| node.set_label(format!("{word} {name}")));
+                    response.ctx.accesskit_node_builder(response.id, |node| {
+                        node.set_label(format!("{word} {label}"))
+                    });
                     if response.clicked() {
-                        out.edit(Edit::Size { of, grow });
+                        clicked = Some(grow);
                     }
                     if !grow {
                         ui.label(RichText::new(count.to_string()).strong());
                     }
                 }
-                ui.label(RichText::new(name).small());
+                ui.label(RichText::new(shown).small());
             });
         },
     );
+    clicked
 }
 
 fn properties(ui: &mut Ui, derived: &Derived) {
@@ -143,17 +162,7 @@ fn properties(ui: &mut Ui, derived: &Derived) {
 /// Takes a pasted block of numbers for the active cell before the cell's own text field sees it.
 fn take_pasted_matrix(ui: &Ui, widgets: &mut Widgets, out: &mut Output) {
     let Some(cell) = widgets.active_cell else { return };
-    let mut pasted = None;
-    ui.input_mut(|input| {
-        input.events.retain(|event| match event {
-            egui::Event::Paste(text) if matrix_from_text(text).is_ok_and(|m| m.entries.len() > 1) => {
-                pasted = Some(text.clone());
-                false
-            }
-            _ => true,
-        });
-    });
-    if let Some(text) = pasted {
+    if let Some(text) = pasted_block(ui) {
         widgets.typing = None;
         out.edit(Edit::Paste { cell, text });
     }

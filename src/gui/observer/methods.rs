@@ -1,0 +1,88 @@
+//! The methods as tiles with lights, and the orders that they offer.
+
+use egui::{RichText, Ui, vec2};
+
+use super::super::{Output, theme};
+use crate::observer::{Method, Order};
+use crate::session::{Derived, Edit, Light, Session};
+
+/// Draws a tile for each method, with a light.
+pub(super) fn tiles(ui: &mut Ui, session: &Session, derived: &Derived, out: &mut Output) {
+    let lights = derived.analysis().map(|analysis| analysis.methods.as_slice()).unwrap_or_default();
+    ui.horizontal_wrapped(|ui| {
+        for method in Method::ALL {
+            let found = lights.iter().find(|light| light.method == method);
+            let chosen = session.document().design.method == method;
+            let colour = found.map_or(theme::faint(ui), |found| theme::light(ui, found.light));
+            let stroke = egui::Stroke::new(
+                if chosen { 2.0 } else { 1.0 },
+                if chosen { theme::accent(ui) } else { theme::faint(ui) },
+            );
+            let text = RichText::new(format!("     {}", method.title())).strong();
+            let button = egui::Button::new(text).stroke(stroke).min_size(vec2(130.0, 34.0));
+            let response = ui.add(button);
+            let centre = egui::pos2(response.rect.left() + 15.0, response.rect.center().y);
+            match found.map(|found| found.light) {
+                None | Some(Light::Missing) => {
+                    ui.painter().circle_stroke(centre, 5.0, egui::Stroke::new(1.5, colour));
+                }
+                Some(_) => {
+                    ui.painter().circle_filled(centre, 5.5, colour);
+                }
+            }
+            response.ctx.accesskit_node_builder(response.id, |node| {
+                node.set_label(method.title());
+                node.set_description(found.map_or("not asked yet", |found| word(found.light)));
+            });
+            let clicked = response.clicked();
+            let why = found.map_or("", |found| found.why.as_str());
+            response.on_hover_text(format!("{}\n{why}", method.description()));
+            if clicked && !chosen {
+                out.edit(Edit::Method(method));
+            }
+        }
+    });
+}
+
+fn word(light: Light) -> &'static str {
+    match light {
+        Light::Exists => "exists",
+        Light::Near => "exists narrowly",
+        Light::Fails => "does not exist",
+        Light::Missing => "data missing",
+    }
+}
+
+/// Draws the orders that the method offers.
+pub(super) fn orders(ui: &mut Ui, session: &Session, out: &mut Output) {
+    let design = &session.document().design;
+    ui.horizontal_wrapped(|ui| {
+        ui.label("Order");
+        for order in design.method.orders() {
+            let (name, what) = order_words(design.method, *order);
+            let response = ui.selectable_label(design.order == *order, name).on_hover_text(what);
+            if response.clicked() && design.order != *order {
+                out.edit(Edit::Order(*order));
+            }
+        }
+    });
+}
+
+/// Name and meaning of an order.
+fn order_words(method: Method, order: Order) -> (&'static str, &'static str) {
+    match (order, method.uses_lmi()) {
+        (Order::Reduced, false) => {
+            ("Reduced", "What the outputs already tell is not estimated again; best conditioned.")
+        }
+        (Order::Reduced, true) => ("Reduced", "What the outputs already tell is not estimated again."),
+        (Order::Full, false) => ("Full", "Every state is estimated dynamically, as in the paper's figures."),
+        (Order::Full, true) => ("Full", "Every state is estimated dynamically: R = I, the most freedom."),
+        (Order::General, _) => {
+            ("General", "Not in the paper: needs only (9) and (10), and takes a feedthrough F.")
+        }
+        (Order::Minimal, _) => (
+            "Minimal",
+            "Neither what the outputs nor what the algebraic equations tell is estimated again; often no freedom is left.",
+        ),
+    }
+}

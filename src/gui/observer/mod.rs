@@ -1,0 +1,61 @@
+//! This observer: methods, order, poles or demands, conditions, result.
+
+mod audit;
+mod badge;
+mod conditions;
+mod demands;
+mod lmi_result;
+mod methods;
+mod poles;
+mod result;
+mod rows;
+
+use egui::{RichText, Ui};
+
+use super::{Output, Widgets, theme};
+use crate::session::{Derived, Session};
+
+/// Draws the place of the observer.
+pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Widgets, out: &mut Output) {
+    ui.add_space(theme::ITEM_GAP);
+    ui.label(RichText::new("Observer").heading());
+    methods::tiles(ui, session, derived, out);
+    methods::orders(ui, session, out);
+    badge::stale(ui, session, derived);
+    let assessment = match derived.analysis().map(|analysis| &analysis.assessment) {
+        Some(Ok(assessment)) => {
+            badge::show(ui, session, assessment, out);
+            Some(assessment)
+        }
+        Some(Err(why)) => {
+            ui.colored_label(theme::bad(ui), why);
+            None
+        }
+        None => {
+            ui.label("computing");
+            None
+        }
+    };
+    if session.document().design.method.uses_lmi() {
+        demands::show(ui, session, derived, out);
+        rows::show(ui, session, derived, widgets, out);
+        audit::show(ui, session, derived, widgets, out);
+        poles::plane(ui, session, derived, out);
+    } else {
+        poles::show(ui, session, derived, widgets, out);
+    }
+    let Some(assessment) = assessment else { return };
+    if let Ok(design) = &assessment.outcome {
+        lmi_result::show(ui, design.synthesis.lmi());
+    }
+    if !assessment.conditions.is_empty() {
+        ui.separator();
+        ui.label(RichText::new("Conditions").strong());
+        conditions::show(ui, &assessment.conditions, widgets, out);
+    }
+    if let Ok(design) = &assessment.outcome {
+        ui.separator();
+        ui.label(RichText::new("Result").strong());
+        result::show(ui, assessment.choice.method, design);
+    }
+}

@@ -1,0 +1,250 @@
+//! Carrying out an edit: the change, what follows from it, drafts, and the step of the history.
+
+use super::command::Edit;
+use super::follow::follow;
+use super::model_edits::{GivenPart, LipschitzEdit, LmiEdit, PartitionEdit};
+use super::state::{Draft, Field, Message, Session};
+use super::update::{Edited, replace};
+use super::{edit_lipschitz, edit_lmi, edit_partition, edit_plant, edit_scenario, poles};
+use crate::document::{Document, Entry, EntryMatrix, PlantData, limits};
+
+/// Carries out an edit as one step, or as a part of the drag that it belongs to.
+pub(super) fn apply(session: &mut Session, edit: Edit) {
+    let drag = drag_key(&edit);
+    let ends = drag.as_ref().is_none_or(|(_, done)| *done);
+    let field = typed_field(&edit);
+    let overwritten = match &edit {
+        Edit::Paste { cell, .. } => Some(cell.matrix),
+        Edit::Fill { matrix, .. } => Some(*matrix),
+        _ => None,
+    };
+    let waiting = if ends { waiting_fields(&edit) } else { None };
+    let mut document = (*session.document).clone();
+    let (edited, told) = changed(&mut document, &session.document, edit);
+    match edited {
+        Edited::Done => {
+            if let Some(field) = field {
+                session.drafts.remove(&field);
+            }
+            let resized = sizes(&session.document) != sizes(&document);
+            session.drafts.retain(|field, _| keeps_meaning(field, &document, resized));
+            if let Some(matrix) = overwritten {
+                session
+                    .drafts
+                    .retain(|field, _| !matches!(field, Field::Cell(cell) if cell.matrix == matrix));
+            }
+            replace(session, document, drag.map(|(key, _)| key));
+            if !told.is_empty() {
+                session.message = Some(Message { text: told.join("; "), error: false });
+            }
+        }
+        Edited::Draft(field, draft) => {
+            session.drafts.insert(field, draft);
+        }
+        Edited::Refused(why) => session.message = Some(Message { text: why, error: true }),
+    }
+    if ends {
+        session.history.drag_ended();
+    }
+    if let Some(waiting) = waiting {
+        try_again(session, waiting);
+    }
+}
+
+/// The edit and what follows from it. An entry that the partition does not allow is a draft: its text stays.
+fn changed(document: &mut Document, before: &Document, edit: Edit) -> (Edited, Vec<String>) {
+    let typed = match &edit {
+        Edit::Cell { cell, text } => Some((Field::Cell(*cell), text.clone())),
+        _ => None,
+    };
+    let edited = change(document, edit);
+    if !matches!(edited, Edited::Done) {
+        return (edited, Vec::new());
+    }
+    match (follow(document, before), typed) {
+        (Ok(told), _) => (Edited::Done, told),
+        (Err(error), Some((field, text))) => (Edited::Draft(field, Draft { text, error }), Vec::new()),
+        (Err(error), None) => (Edited::Refused(error), Vec::new()),
+    }
+}
+
+/// Which waiting drafts an edit may have made possible.
+fn waiting_fields(edit: &Edit) -> Option<fn(&Field) -> bool> {
+    match edit {
+        Edit::Partition(PartitionEdit::Name { .. }) => None,
+        Edit::Partition(_) => Some(|field| matches!(field, Field::Cell(_))),
+        Edit::Lmi(LmiEdit::Given { part: GivenPart::N, .. }) => {
+            Some(|field| matches!(field, Field::Given(GivenPart::J)))
+        }
+        _ => None,
+    }
+}
+
+/// Tries drafts again that may be possible now; what was not even understood stays as it is.
+fn try_again(session: &mut Session, waiting: fn(&Field) -> bool) {
+    let drafts: Vec<(Field, String)> = session
+        .drafts
+        .iter()
+        .filter(|(field, _)| waiting(field))
+        .map(|(field, draft)| (field.clone(), draft.text.clone()))
+        .collect();
+    let told = session.message.take();
+    for (field, text) in drafts {
+        match field {
+            Field::Cell(cell) if Entry::typed(&text).is_ok() => apply(session, Edit::Cell { cell, text }),
+            Field::Given(part) => apply(session, Edit::Lmi(LmiEdit::Given { part, text })),
+            _ => {}
+        }
+    }
+    session.message = session.message.take().or(told);
+}
+
+/// Whether a draft's field still exists and means the same.
+fn keeps_meaning(field: &Field, document: &Document, resized: bool) -> bool {
+    let nonlinearity = match &document.plant {
+        PlantData::Descriptor(data) => data.lipschitz.as_ref(),
+        PlantData::Network(_) => None,
+    };
+    let lmi = &document.design.lmi;
+    match field {
+        Field::Poles => true,
+        Field::Cell(_) | Field::Initial(_) | Field::Signal(..) | Field::Uncertainty(..) => !resized,
+        Field::Rows(subsystem, row, column) => {
+            let there = |rows: &nalgebra::DMatrix<f64>| *row < rows.nrows() && *column < rows.ncols();
+            !resized && lmi.rows.get(*subsystem).is_some_and(there)
+        }
+        Field::Given(_) => lmi.given.is_some(),
+        Field::Lipschitz(..) => !resized && nonlinearity.is_some(),
+        Field::Component(index) => nonlinearity.is_some_and(|lipschitz| *index < lipschitz.f.len()),
+        Field::LipschitzConstant => nonlinearity.is_some(),
+    }
+}
+
+/// Shapes of everything that is typed into cell by cell.
+fn sizes(document: &Document) -> Vec<(usize, usize)> {
+    let PlantData::Descriptor(data) = &document.plant else { return Vec::new() };
+    let lipschitz = data.lipschitz.iter().flat_map(|lipschitz| [&lipschitz.G, &lipschitz.F_L]);
+    data.matrices.iter().chain(lipschitz).map(EntryMatrix::shape).collect()
+}
+
+/// Key of a drag and whether it ends with this edit; `None` for an edit that is a step of its own.
+fn drag_key(edit: &Edit) -> Option<(String, bool)> {
+    match edit {
+        Edit::MovePole { index, done, .. } => Some((format!("pole {index}"), *done)),
+        Edit::Scale { done, .. } => Some(("scale".to_owned(), *done)),
+        Edit::UncertaintyScale { done, .. } => Some(("uncertainty".to_owned(), *done)),
+        Edit::NoiseLevel { done, .. } => Some(("noise".to_owned(), *done)),
+        Edit::Lmi(edit) => demand_key(edit).map(|(key, done)| (key.to_owned(), done)),
+        Edit::Partition(PartitionEdit::Move { border, done, .. }) => {
+            Some((format!("border {border}"), *done))
+        }
+        Edit::Partition(PartitionEdit::Name { subsystem, .. }) => Some((format!("name {subsystem}"), false)),
+        Edit::Title(_) => Some(("title".to_owned(), false)),
+        Edit::Notes(_) => Some(("notes".to_owned(), false)),
+        Edit::Horizon(_) => Some(("horizon".to_owned(), false)),
+        _ => None,
+    }
+}
+
+fn demand_key(edit: &LmiEdit) -> Option<(&'static str, bool)> {
+    match edit {
+        LmiEdit::Decay { done, .. } => Some(("decay", *done)),
+        LmiEdit::Gain { done, .. } => Some(("gain", *done)),
+        LmiEdit::Conditioning { done, .. } => Some(("conditioning", *done)),
+        LmiEdit::Gamma { done, .. } => Some(("gamma", *done)),
+        LmiEdit::BackOff { done, .. } => Some(("back off", *done)),
+        LmiEdit::Seconds { done, .. } => Some(("seconds", *done)),
+        _ => None,
+    }
+}
+
+/// The field whose draft an edit clears when it is understood.
+fn typed_field(edit: &Edit) -> Option<Field> {
+    match edit {
+        Edit::Cell { cell, .. } => Some(Field::Cell(*cell)),
+        Edit::Poles(_) | Edit::MovePole { .. } => Some(Field::Poles),
+        Edit::Initial { state, .. } => Some(Field::Initial(*state)),
+        Edit::Signal { list, index, .. } => Some(Field::Signal(*list, *index)),
+        Edit::UncertaintyCell { row, column, frequency, .. } => {
+            Some(Field::Uncertainty(*row, *column, *frequency))
+        }
+        Edit::Lmi(LmiEdit::RowsCell { subsystem, row, column, .. }) => {
+            Some(Field::Rows(*subsystem, *row, *column))
+        }
+        Edit::Lmi(LmiEdit::Given { part, .. }) => Some(Field::Given(*part)),
+        Edit::Lipschitz(LipschitzEdit::Cell { matrix, row, column, .. }) => {
+            Some(Field::Lipschitz(*matrix, *row, *column))
+        }
+        Edit::Lipschitz(LipschitzEdit::Component { index, .. }) => Some(Field::Component(*index)),
+        Edit::Lipschitz(LipschitzEdit::Constant(_)) => Some(Field::LipschitzConstant),
+        _ => None,
+    }
+}
+
+fn change(document: &mut Document, edit: Edit) -> Edited {
+    match edit {
+        Edit::Title(title) => document.title = clipped(title),
+        Edit::Notes(notes) => document.notes = clipped(notes),
+        Edit::Time(_)
+        | Edit::Cell { .. }
+        | Edit::Paste { .. }
+        | Edit::Fill { .. }
+        | Edit::Size { .. }
+        | Edit::AddSensor { .. } => {
+            let edited = edit_plant::change(document, edit);
+            poles::provide(document);
+            return edited;
+        }
+        Edit::Method(method) => {
+            edit_lmi::choose_method(document, method);
+            poles::provide(document);
+        }
+        Edit::Order(order) => {
+            let method = document.design.method;
+            if !method.orders().contains(&order) {
+                let (method, order) = (method.title(), order.key());
+                return Edited::Refused(format!("the {method} observer has no {order} order"));
+            }
+            document.design.order = order;
+            poles::provide(document);
+        }
+        Edit::Poles(text) => match poles::parse(&text) {
+            Ok(found) => document.design.poles = found,
+            Err(error) => return Edited::Draft(Field::Poles, Draft { text, error }),
+        },
+        Edit::MovePole { index, to, .. } => {
+            if to.re.is_finite() && to.im.is_finite() {
+                poles::drag(document, index, to);
+            }
+        }
+        Edit::Scale { scale, .. } => {
+            if scale.is_finite() {
+                document.design.scale = scale.clamp(0.01, 1000.0);
+            }
+        }
+        Edit::RankTolerance(rank) => {
+            if rank.is_finite() {
+                document.tolerance.rank = rank.clamp(1.0, 1e12);
+            }
+        }
+        Edit::Lmi(edit) => return edit_lmi::change(document, edit),
+        Edit::Partition(PartitionEdit::Name { subsystem, name }) => {
+            let name = clipped(name);
+            return edit_partition::change(document, PartitionEdit::Name { subsystem, name });
+        }
+        Edit::Partition(edit) => return edit_partition::change(document, edit),
+        Edit::Lipschitz(edit) => return edit_lipschitz::change(document, edit),
+        Edit::Initial { .. }
+        | Edit::Signal { .. }
+        | Edit::Horizon(_)
+        | Edit::Samples(_)
+        | Edit::UncertaintyScale { .. }
+        | Edit::UncertaintyCell { .. }
+        | Edit::NoiseLevel { .. } => return edit_scenario::change(document, edit),
+    }
+    Edited::Done
+}
+
+fn clipped(text: String) -> String {
+    if text.len() <= limits::MAX_TEXT { text } else { text.chars().take(limits::MAX_TEXT / 4).collect() }
+}

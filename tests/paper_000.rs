@@ -1,0 +1,265 @@
+//! Paper 000 (decentralized observers): conditions, designs and trajectories against the reference numbers.
+#![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail by panicking")]
+#![expect(non_snake_case, reason = "matrix letters of the paper")]
+
+use descry::document::read_document;
+use descry::lmi::Outcome;
+use descry::numerics::{Complex64, Tolerance, Watch, rank, svd};
+use descry::observer::decentralized::{
+    Decoupled, Local, LocalProblem, Parameterisation, Setup, assumption_1, chosen, conditions, design,
+    design_local, local_problems, strong_detectability,
+};
+use descry::observer::{Condition, Design, DesignChoice, DesignError, LmiChoice, Method, Order, Verdict};
+use descry::system::{Model, TimeDomain};
+use nalgebra::{DMatrix, dmatrix};
+use serde_json::Value;
+
+const ORDERS: [(&str, Order); 3] =
+    [("full", Order::Full), ("reduced", Order::Reduced), ("minimal", Order::Minimal)];
+
+fn tolerance() -> Tolerance {
+    Tolerance::default()
+}
+
+fn reference(time: TimeDomain) -> Value {
+    let text = match time {
+        TimeDomain::Continuous => include_str!("reference/ex000_continuous.json"),
+        TimeDomain::Discrete => include_str!("reference/ex000_discrete.json"),
+    };
+    serde_json::from_str(text).unwrap()
+}
+
+const TIMES: [TimeDomain; 2] = [TimeDomain::Continuous, TimeDomain::Discrete];
+
+fn matrix(value: &Value) -> DMatrix<f64> {
+    let rows: Vec<Vec<f64>> = serde_json::from_value(value.clone()).unwrap();
+    let columns = rows.first().map_or(0, Vec::len);
+    DMatrix::from_row_iterator(rows.len(), columns, rows.into_iter().flatten())
+}
+
+/// The composite plant of section V, from the document.
+fn model(time: TimeDomain) -> Model {
+    let document = read_document(include_str!("documents/000-partition.json")).unwrap();
+    let mut model = document.model().unwrap();
+    model.system.time = time;
+    model
+}
+
+fn problems(time: TimeDomain) -> Vec<LocalProblem> {
+    local_problems(&model(time)).unwrap()
+}
+
+/// The well-posed problem with the demands of the reference.
+fn demands(reference: &Value) -> LmiChoice {
+    let posed = &reference["well_posed_problem"];
+    LmiChoice {
+        decay: posed["decay"].as_f64(),
+        gain: posed["gain"].as_f64(),
+        conditioning: posed["kappa"].as_f64().unwrap(),
+        // the paper's choice: x4 is decoupled from subsystem 1, x1 from subsystem 2
+        decoupled: Some(vec![vec![3], vec![0]]),
+        ..LmiChoice::default()
+    }
+}
+
+fn choice(order: Order, lmi: LmiChoice) -> DesignChoice {
+    DesignChoice { method: Method::Decentralized, order, lmi, ..DesignChoice::default() }
+}
+
+fn local(problem: &LocalProblem, number: usize, choice: &DesignChoice) -> Outcome<Local> {
+    design_local(problem, number, choice, &tolerance(), &Watch::none()).unwrap()
+}
+
+fn verified(outcome: Outcome<Local>) -> Local {
+    match outcome {
+        Outcome::Verified(local) => local,
+        other => panic!("expected a verified design, found {other:#?}"),
+    }
+}
+
+fn close(found: &DMatrix<f64>, expected: &DMatrix<f64>, limit: f64, what: &str) {
+    assert_eq!(found.shape(), expected.shape(), "{what}: shape");
+    let error = (found - expected).norm() / expected.norm().max(1.0);
+    assert!(error <= limit, "{what}: difference {error:.2e}\nfound {found}expected {expected}");
+}
+
+#[test]
+fn the_document_holds_the_reference_s_subsystems() {
+    for time in TIMES {
+        let reference = reference(time);
+        for (number, problem) in problems(time).iter().enumerate() {
+            let expected = &reference["subsystems"][number];
+            for (name, found) in [("E", &problem.E), ("A", &problem.A), ("B", &problem.B), ("H", &problem.H)]
+            {
+                assert_eq!(*found, matrix(&expected[name]), "{name} of {}", problem.name);
+            }
+            let decoupled = Decoupled::new(problem, &[0], &tolerance()).unwrap();
+            assert_eq!(decoupled.D1, matrix(&expected["D1"]), "D1 of {}", problem.name);
+            assert_eq!(decoupled.D2, matrix(&expected["D2"]), "D2 of {}", problem.name);
+            assert_eq!(decoupled.Phi, matrix(&expected["Phi"]), "Phi of {}", problem.name);
+        }
+    }
+}
+
+#[test]
+fn ranks_and_zeros_are_those_of_the_reference() {
+    for time in TIMES {
+        let reference = reference(time);
+        for (number, problem) in problems(time).iter().enumerate() {
+            let expected = &reference["subsystems"][number];
+            let ranks = &expected["assumption1"];
+            let found = assumption_1(problem, &[0], &tolerance()).unwrap();
+            assert!(found.holds() && !found.fragile(), "{found:?}");
+            assert_eq!(Some(found.decision.rank as u64), ranks["rank_big"].as_u64(), "rank");
+            assert_eq!(Some(found.needed as u64), ranks["need"].as_u64(), "n + rank D1");
+            assert_eq!(Some(found.of_columns.rank as u64), ranks["rank_D1"].as_u64(), "rank D1");
+            let decoupled = Decoupled::new(problem, &[0], &tolerance()).unwrap();
+            let theta = rank(&decoupled.theta(), 0.0, &tolerance()).unwrap();
+            assert_eq!(Some(theta.rank as u64), ranks["rank_theta"].as_u64(), "Lemma 1");
+            let smallest = ranks["sv_theta_min"].as_f64().unwrap();
+            assert!((theta.smallest() - smallest).abs() < 1e-12, "singular value of Theta");
+            let zeros = strong_detectability(problem, &[0], &tolerance()).unwrap();
+            assert_eq!(Some(zeros.holds()), expected["strongly_detectable"].as_bool(), "{zeros:?}");
+            let expected: Vec<[f64; 2]> = serde_json::from_value(expected["finite_zeros"].clone()).unwrap();
+            assert_eq!(zeros.modes.len(), expected.len(), "number of zeros");
+            for (mode, [re, im]) in zeros.modes.iter().zip(expected) {
+                assert!((mode.s - Complex64::new(re, im)).norm() < 1e-12, "{}", mode.s);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_parameterisation_is_the_reference_s() {
+    for time in TIMES {
+        let reference = reference(time);
+        for (number, problem) in problems(time).iter().enumerate() {
+            let decoupled = Decoupled::new(problem, &[0], &tolerance()).unwrap();
+            for (key, order) in ORDERS {
+                let expected = &reference["subsystems"][number]["orders"][key];
+                let what = |name: &str| format!("{name} of {} ({key})", problem.name);
+                let R = chosen(&decoupled, order, &tolerance()).unwrap();
+                assert_eq!(R, matrix(&expected["R"]), "{}", what("R"));
+                let family = Parameterisation::paper(&decoupled, &R, &tolerance()).unwrap();
+                let count = |name: &str| usize::try_from(expected[name].as_u64().unwrap()).unwrap();
+                let omega = family.omega();
+                assert_eq!(family.order(), count("beta"), "{}", what("beta"));
+                assert_eq!(omega.nrows(), count("Omega_rows"), "{}", what("rows of Omega"));
+                assert_eq!(rank(omega, 0.0, &tolerance()).unwrap().rank, count("rank_Omega"), "rank Omega");
+                let L = family.left_null_of_omega();
+                assert_eq!(L.nrows(), count("free_columns"), "{}", what("free columns"));
+                close(
+                    &(L.transpose() * L),
+                    &matrix(&expected["projector_I_minus_OmOmp"]),
+                    1e-12,
+                    &what("L'L"),
+                );
+                let (J, F) = family.lambda_output(&decoupled);
+                let compared = [
+                    ("Tbar", family.t_bar()),
+                    ("LambdaN", &family.Lambda_N),
+                    ("LambdaPsi", &family.Lambda_Psi),
+                    ("LambdaJ", &J),
+                    ("LambdaP", &family.Lambda_P),
+                    ("LambdaQ", &family.Lambda_Q),
+                    ("LambdaF", &F),
+                ];
+                for (name, found) in compared {
+                    close(found, &matrix(&expected[name]), 1e-12, &what(name));
+                }
+                close(&(family.t_bar() * &decoupled.Pi), &matrix(&expected["T_prime"]), 1e-12, &what("T'"));
+            }
+        }
+    }
+}
+
+#[test]
+fn every_order_has_the_invariant_zero_as_its_fixed_mode() {
+    for time in TIMES {
+        for (number, problem) in problems(time).iter().enumerate() {
+            for (key, order) in ORDERS {
+                let expected = &reference(time)["subsystems"][number]["orders"][key];
+                let choice = choice(order, demands(expected));
+                let setup = Setup::new(problem, number, &choice, &tolerance()).unwrap();
+                let modes: Vec<[f64; 2]> = serde_json::from_value(expected["fixed_modes"].clone()).unwrap();
+                assert_eq!(setup.fixed_modes.len(), modes.len(), "{key}: {:?}", setup.fixed_modes);
+                for (found, [re, im]) in setup.fixed_modes.iter().zip(modes) {
+                    assert!((found - Complex64::new(re, im)).norm() < 1e-12, "{key}: {found}");
+                    let limit = if time == TimeDomain::Discrete { re.abs() } else { -re };
+                    assert!((setup.fastest_decay().unwrap() - limit).abs() < 1e-12, "{key}: decay limit");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn gamma_is_the_reference_s_in_both_time_domains_and_all_orders() {
+    for time in TIMES {
+        let reference = reference(time);
+        for (number, problem) in problems(time).iter().enumerate() {
+            let subsystem = &reference["subsystems"][number];
+            let exact = subsystem["gamma_infimum_all_orders_exact"].as_f64().unwrap();
+            for (key, order) in ORDERS {
+                let expected = &subsystem["orders"][key];
+                let found = verified(local(problem, number, &choice(order, demands(expected))));
+                let best = found.result.gamma_best.unwrap();
+                let gamma = expected["well_posed_problem"]["gamma"].as_f64().unwrap();
+                let what = format!("{time:?}, {}, {key}: {best}", problem.name);
+                println!("{what} exact {exact} ref {gamma} cert {:?}", found.result.certificate);
+                assert!((best / gamma - 1.0).abs() < 1e-5, "{what} and reference {gamma}");
+                assert!((best / exact - 1.0).abs() < 1e-5, "{what} and exact infimum {exact}");
+                let certified = found.result.gamma.unwrap();
+                assert!(certified > exact && certified < 1.011 * exact, "{what}: backed off to {certified}");
+                assert!(found.result.certificate.proved, "{what}");
+                let failed: Vec<_> = found.checks.iter().filter(|check| !check.passed()).collect();
+                assert!(failed.is_empty(), "{what}: {failed:#?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn slightly_above_the_least_gamma_is_feasible_and_slightly_below_is_not() {
+    for time in TIMES {
+        let reference = reference(time);
+        for (number, problem) in problems(time).iter().enumerate() {
+            for (key, order) in ORDERS {
+                let expected = &reference["subsystems"][number]["orders"][key];
+                let gamma = expected["well_posed_problem"]["gamma"].as_f64().unwrap();
+                let at = |factor: f64| {
+                    let lmi = LmiChoice { gamma: Some(factor * gamma), ..demands(expected) };
+                    local(problem, number, &choice(order, lmi))
+                };
+                let found = verified(at(1.001));
+                assert_eq!(found.result.gamma, Some(1.001 * gamma), "{key}: exactly what was asked");
+                let Outcome::Infeasible(why) = at(0.999) else { panic!("{key}: 0.999 gamma is infeasible") };
+                let nearest = why.nearest.iter().find(|near| near.quantity == "gamma").unwrap();
+                assert!((nearest.feasible / gamma - 1.0).abs() < 2e-3, "{key}: {why:?}");
+            }
+        }
+    }
+}
+
+fn designed(model: &Model, choice: &DesignChoice) -> Result<Design, DesignError> {
+    let asked: Vec<Condition> = conditions(model, choice, &tolerance()).unwrap();
+    design(model, choice, &asked, &tolerance(), &Watch::none())
+}
+
+#[test]
+fn the_composite_observer_is_verified() {
+    for time in TIMES {
+        let model = model(time);
+        for (_, order) in ORDERS {
+            let choice = choice(order, LmiChoice::default());
+            for condition in conditions(&model, &choice, &tolerance()).unwrap() {
+                assert_eq!(condition.verdict, Verdict::Holds, "{}: {}", condition.name, condition.summary);
+            }
+            let design = designed(&model, &choice).unwrap();
+            let failed: Vec<_> = design.verification.failures().collect();
+            assert!(design.verification.verified(), "{order:?}: {failed:#?}");
+            assert_eq!(design.observer.P.nrows(), 6, "estimates of all states");
+            assert!(design.matrix("N (first)").is_some() && design.matrix("F (second)").is_some(), "named");
+        }
+    }
+}
