@@ -18,6 +18,8 @@ use serde_json::Value;
 
 #[path = "paper_001/random.rs"]
 mod random;
+#[path = "paper_001/simulation.rs"]
+mod simulation;
 
 fn reference() -> Value {
     serde_json::from_str(include_str!("reference/ex001.json")).unwrap()
