@@ -85,7 +85,8 @@ fn the_simulated_example_is_the_one_of_the_reference() {
     document.scenario.uncertainty = None;
     let system = document.system().unwrap();
     let design = assessed(Order::Reduced).outcome.unwrap();
-    let run = document.scenario(&system).run(&system, &[&design.observer], &document.tolerance).unwrap();
+    let run =
+        document.scenario(&system).run_linear(&system, &[&design.observer], &document.tolerance).unwrap();
     let rows = reference()["simulation"]["reduced_nominal"].clone();
     for row in rows.as_array().unwrap() {
         let t = row["t"].as_f64().unwrap();

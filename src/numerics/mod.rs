@@ -3,6 +3,7 @@
 mod block;
 mod eigen;
 mod error;
+mod executor;
 mod fixed_modes;
 mod h_infinity;
 pub mod integrate;
@@ -21,6 +22,7 @@ mod watch;
 pub use block::{Block, block_matrix, side_by_side, stack};
 pub use eigen::eigenvalues;
 pub use error::NumericsError;
+pub use executor::{Executor, Sequential};
 pub use fixed_modes::{ObservableQuotient, PbhMode, observable_quotient, pbh_modes};
 pub use h_infinity::{HInfinityError, HInfinityNorm, h_infinity_norm};
 pub use num_complex::Complex64;

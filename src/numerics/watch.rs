@@ -1,7 +1,9 @@
-//! How a long computation tells how far it is, and learns that it is no longer wanted.
+//! How a long computation tells how far it is, learns that it is no longer wanted, and finds processors for its parts.
 
 use std::fmt;
 use std::sync::Arc;
+
+use super::executor::{Executor, Sequential};
 
 /// Receives progress and answers whether to go on; cheap to clone, so that it can be handed into a solver.
 ///
@@ -9,6 +11,7 @@ use std::sync::Arc;
 #[derive(Clone)]
 pub struct Watch {
     listener: Arc<dyn Fn(f32, &str) -> bool + Send + Sync>,
+    executor: Arc<dyn Executor>,
     from: f32,
     to: f32,
 }
@@ -16,12 +19,23 @@ pub struct Watch {
 impl Watch {
     /// A watch that tells `listener` the fraction and what is being done, and stops when it answers `false`.
     pub fn new(listener: impl Fn(f32, &str) -> bool + Send + Sync + 'static) -> Self {
-        Self { listener: Arc::new(listener), from: 0.0, to: 1.0 }
+        Self { listener: Arc::new(listener), executor: Arc::new(Sequential), from: 0.0, to: 1.0 }
     }
 
     /// A watch that nobody looks at and that never stops anything.
     pub fn none() -> Self {
         Self::new(|_, _| true)
+    }
+
+    /// The same watch, with independent parts of the computation on another executor than one after the other.
+    #[must_use]
+    pub fn on(self, executor: impl Executor + 'static) -> Self {
+        Self { executor: Arc::new(executor), ..self }
+    }
+
+    /// Where independent parts of the computation run.
+    pub fn executor(&self) -> &dyn Executor {
+        self.executor.as_ref()
     }
 
     /// Tells how far the computation is; `false` when it should stop.
@@ -34,7 +48,7 @@ impl Watch {
     /// A watch for a step that fills the stretch `from..to` of this one.
     pub fn part(&self, from: f32, to: f32) -> Self {
         let place = |x: f32| self.from + (self.to - self.from) * x.clamp(0.0, 1.0);
-        Self { listener: Arc::clone(&self.listener), from: place(from), to: place(to) }
+        Self { from: place(from), to: place(to), ..self.clone() }
     }
 }
 

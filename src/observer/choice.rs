@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Condition, Design, DesignError, LmiChoice, h_infinity, proportional, proportional_integral};
+use super::{
+    Condition, Design, DesignError, LmiChoice, decentralized, h_infinity, proportional, proportional_integral,
+};
 use crate::numerics::{Complex64, Tolerance, Watch};
 use crate::system::properties::PropertyError;
 use crate::system::{Model, TimeDomain};
@@ -206,7 +208,7 @@ pub fn conditions(
             proportional_integral::conditions(&model.system, choice.order, tolerance)
         }
         Method::HInfinity => h_infinity::conditions(model, choice, tolerance),
-        Method::Decentralized => Ok(Vec::new()),
+        Method::Decentralized => decentralized::conditions(model, choice, tolerance),
     }
 }
 
@@ -236,7 +238,7 @@ pub fn assess(
             proportional_integral::design(&model.system, choice, &conditions, tolerance)
         }
         Method::HInfinity => h_infinity::design(model, choice, &conditions, tolerance, watch),
-        Method::Decentralized => Err(DesignError::Cancelled),
+        Method::Decentralized => decentralized::design(model, choice, &conditions, tolerance, watch),
     };
     Ok(Assessment { choice: choice.clone(), conditions, outcome })
 }

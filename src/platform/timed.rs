@@ -34,8 +34,15 @@ pub(super) fn perform_timed(
         let outcome = Outcome::Progress { fraction, what: what.to_owned() };
         report(JobReply { id, revision, outcome })
     });
-    let reply = perform(request, &watch)?;
+    let reply = perform(request, &here(watch))?;
     Some((reply, start.elapsed().as_secs_f64() * 1e3))
+}
+
+/// A watch with the processors of this machine; a worker in a browser has one.
+fn here(watch: Watch) -> Watch {
+    #[cfg(not(target_arch = "wasm32"))]
+    let watch = watch.on(super::native::Threads);
+    watch
 }
 
 /// The clock, which browsers have too.

@@ -34,7 +34,7 @@ pub(super) fn judge(
     demands: &Demands,
     tolerance: &Tolerance,
 ) -> Result<Judged, NumericsError> {
-    let certificate = certificate(setup, matrices, X, gamma);
+    let certificate = certify(setup, matrices, X, gamma);
     let h_infinity = norm(setup, matrices, tolerance)?;
     let mut verification = equations(setup, matrices, tolerance)?;
     let spectrum = &verification.spectrum;
@@ -45,7 +45,7 @@ pub(super) fn judge(
         value: if certificate.proved { -certificate.margin } else { f64::MIN_POSITIVE },
         limit: 0.0,
     });
-    if setup.decoupled.is_driven() {
+    if setup.is_driven() {
         checks.push(Check {
             name: "H-infinity norm".to_owned(),
             statement: "norm of P (s I - N)^-1 (-T D2) + Q Phi D2 over gamma, at most 1".to_owned(),
@@ -63,7 +63,7 @@ pub(super) fn judge(
 /// Relative rounding that a norm next to its bound may show.
 const NORM_ROUNDING: f64 = 1e-9;
 
-/// Proves the inequality of the finished matrices in interval arithmetic.
+/// Proves the inequality of given matrices in interval arithmetic: those of a finished design, or printed ones.
 ///
 /// ```text
 /// T D2 and Q Phi D2 are evaluated as intervals from T, Q, Phi and D2 as they are
@@ -72,14 +72,9 @@ const NORM_ROUNDING: f64 = 1e-9;
 ///
 /// # Source
 /// Paper 000, Theorem 1 (34), Theorem 2 (37).
-pub(super) fn certificate(
-    setup: &Setup,
-    matrices: &LocalMatrices,
-    X: &DMatrix<f64>,
-    gamma: f64,
-) -> Certificate {
+pub fn certify(setup: &Setup, matrices: &LocalMatrices, X: &DMatrix<f64>, gamma: f64) -> Certificate {
     let blocks = Blocks::new(setup, matrices, X, gamma);
-    let driven = setup.decoupled.is_driven();
+    let driven = setup.is_driven();
     let inequality = match (driven, setup.problem.is_discrete()) {
         (_, _) if matrices.N.is_empty() && !driven => IntervalMatrix::zeros(0, 0),
         (_, _) if matrices.N.is_empty() => blocks.without_dynamics(),
@@ -177,7 +172,7 @@ fn norm(
 ) -> Result<Option<HInfinityNorm>, NumericsError> {
     let LocalMatrices { N, T, P, Q, .. } = matrices;
     let decoupled = &setup.decoupled;
-    if !decoupled.is_driven() {
+    if !setup.is_driven() {
         return Ok(None);
     }
     let (B, D) = (-(T * &decoupled.D2), Q * &decoupled.Phi_D2);

@@ -86,7 +86,7 @@ fn note(local: &Local) -> Option<String> {
     let sources: Vec<String> =
         local.setup.decoupled.attenuated.iter().map(|j| problem.source_name(problem.sources[*j])).collect();
     let still = if local.setup.family.order() == 0 { "; order 0, a static estimate" } else { "" };
-    if local.setup.decoupled.is_driven() {
+    if local.setup.is_driven() {
         Some(format!(
             "{name}: {} drive its error, attenuated but not decoupled; it converges when they do{still}",
             sources.join(", ")

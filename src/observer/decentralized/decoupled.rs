@@ -102,11 +102,6 @@ impl Decoupled {
     pub fn known(&self) -> DMatrix<f64> {
         stack(&[&self.Phi_A, &self.H])
     }
-
-    /// Whether the attenuated columns can act on the estimate at all: `Pi D2 = 0 = Phi D2` means that gamma is zero.
-    pub fn is_driven(&self) -> bool {
-        self.D2_bar.iter().chain(self.Phi_D2.iter()).any(|x| *x != 0.0)
-    }
 }
 
 /// Relative size below which an entry of a product counts as rounding.

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use super::composite::{composite, matrices, notes};
-use super::{Executor, Local, LocalProblem, Sequential, SetupError, design_local, local_problems};
+use super::{Local, LocalProblem, SetupError, design_local, local_problems};
 use crate::lmi::Outcome;
 use crate::numerics::{Tolerance, Watch};
 use crate::observer::{Condition, Design, DesignChoice, DesignError, Order, Synthesis, Verification};
@@ -24,21 +24,6 @@ pub fn design(
     tolerance: &Tolerance,
     watch: &Watch,
 ) -> Result<Design, DesignError> {
-    design_with(model, choice, conditions, tolerance, watch, &Sequential)
-}
-
-/// Designs the observers of all subsystems on any executor.
-///
-/// # Errors
-/// As [`design`].
-pub fn design_with(
-    model: &Model,
-    choice: &DesignChoice,
-    conditions: &[Condition],
-    tolerance: &Tolerance,
-    watch: &Watch,
-    executor: &dyn Executor,
-) -> Result<Design, DesignError> {
     if let Some(failed) = conditions.iter().find(|c| c.needed && !c.verdict.holds()) {
         return Err(DesignError::Condition {
             id: failed.id.clone(),
@@ -47,7 +32,7 @@ pub fn design_with(
         });
     }
     let problems = local_problems(model).map_err(|error| DesignError::Unsuitable(error.to_string()))?;
-    let outcomes = design_subsystems(&problems, choice, tolerance, watch, executor)?;
+    let outcomes = design_subsystems(&problems, choice, tolerance, watch)?;
     let mut locals = Vec::with_capacity(outcomes.len());
     let mut unproved = Vec::new();
     for outcome in outcomes {
@@ -102,7 +87,7 @@ pub type LocalOutcomes = Vec<Result<Outcome<Local>, DesignError>>;
 
 /// Designs each subsystem for itself, without any matrix of the composite plant: the cost grows with their number.
 ///
-/// `watch` hears the mean progress of all and can stop each of them.
+/// They run on the executor of `watch`, which hears the mean progress of all and can stop each of them.
 ///
 /// # Errors
 /// Lists in the choice for another number of subsystems; what happens to a subsystem is in its outcome.
@@ -111,13 +96,12 @@ pub fn design_subsystems(
     choice: &DesignChoice,
     tolerance: &Tolerance,
     watch: &Watch,
-    executor: &dyn Executor,
 ) -> Result<LocalOutcomes, SetupError> {
     super::setup::check_counts(choice, problems.len())?;
     let slots: Vec<OnceLock<Result<Outcome<Local>, DesignError>>> =
         problems.iter().map(|_| OnceLock::new()).collect();
     let progress = Arc::new(Mutex::new(vec![0.0_f32; problems.len()]));
-    executor.run(problems.len(), &|number| {
+    watch.executor().run(problems.len(), &|number| {
         let (Some(problem), Some(slot)) = (problems.get(number), slots.get(number)) else { return };
         let own = share(watch, &progress, number, &problem.name);
         let outcome = if own.go_on(0.0, "conditions") {

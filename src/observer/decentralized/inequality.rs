@@ -4,7 +4,7 @@
 use nalgebra::DMatrix;
 
 use super::Setup;
-use crate::lmi::{Expr, Problem};
+use crate::lmi::{Expr, Point, Problem};
 
 /// What is demanded of one subsystem, in its own units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +24,7 @@ pub(super) struct Demands {
 pub(super) struct Inequality {
     /// The problem.
     pub(super) problem: Problem,
-    /// Lyapunov matrix, beta x beta.
+    /// Lyapunov matrix in scaled units, beta x beta.
     pub(super) X: Expr,
     /// `W = X Y`, beta x l.
     pub(super) W: Expr,
@@ -34,6 +34,31 @@ pub(super) struct Inequality {
     pub(super) gamma: Expr,
     /// Scale of `X`, 1 x 1.
     t: Expr,
+    units: Units,
+}
+
+/// Units in which the numbers of an inequality are near one; gamma is counted in `1 / source`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Units {
+    /// Rate by which `N` and `T D2` are divided; 1 in discrete time. Gamma does not depend on it.
+    time: f64,
+    /// Factor of the couplings.
+    source: f64,
+}
+
+impl Units {
+    /// Powers of two, so that no digit changes.
+    fn of(setup: &Setup) -> Self {
+        let Setup { family, decoupled, .. } = setup;
+        let power_of_two = |x: f64| if x > 0.0 && x.is_finite() { x.log2().round().exp2() } else { 1.0 };
+        let time = if setup.problem.is_discrete() {
+            1.0
+        } else {
+            power_of_two(family.Lambda_N.norm().max(decoupled.A_bar.norm()))
+        };
+        let drive = family.Lambda_T.norm().max(decoupled.D2_bar.norm()).max(decoupled.Phi_D2.norm());
+        Self { time, source: time / power_of_two(drive) }
+    }
 }
 
 /// Where the inequality of an attenuation stands.
@@ -49,6 +74,16 @@ pub(super) fn source(setup: &Setup) -> &'static str {
 pub(super) const ATTENUATION: &str = "attenuation";
 
 impl Inequality {
+    /// The Lyapunov matrix of the subsystem's own units, in which the proof is made.
+    pub(super) fn lyapunov(&self, point: &Point) -> DMatrix<f64> {
+        point.value(&self.X) * (self.units.source / self.units.time)
+    }
+
+    /// The attenuation in the subsystem's own units.
+    pub(super) fn attenuation_at(&self, scaled: f64) -> f64 {
+        scaled / self.units.source
+    }
+
     /// The well-posed problem of one subsystem: the paper's inequality, the demand on the decay, bounds on the gains and
     /// on the condition of `X`.
     ///
@@ -60,14 +95,15 @@ impl Inequality {
         let X = problem.symmetric("X", beta);
         let W = problem.matrix("W", beta, l);
         // without effect of the couplings the estimate's gain is of no use
-        let driven = setup.decoupled.is_driven();
+        let driven = setup.is_driven();
+        let units = Units::of(setup);
         let Z = if driven { problem.matrix("Z", n, k) } else { Expr::zeros(n, k) };
         let gamma = match demands.gamma {
             None if driven => problem.scalar("gamma"),
-            given => Expr::constant(&DMatrix::from_element(1, 1, given.unwrap_or(0.0))),
+            given => Expr::constant(&DMatrix::from_element(1, 1, units.source * given.unwrap_or(0.0))),
         };
         let t = problem.scalar("t");
-        let mut result = Self { problem, X, W, Z, gamma, t };
+        let mut result = Self { problem, X, W, Z, gamma, t, units };
         if driven {
             let block = result.attenuation(setup);
             result.problem.strict(ATTENUATION, source(setup), block);
@@ -82,14 +118,14 @@ impl Inequality {
         result
     }
 
-    /// `X N = X Lambda_N - W L_N`.
+    /// `X N = X Lambda_N - W L_N`, per unit of time.
     ///
     /// # Source
     /// Paper 000, before (34).
     // ERRATUM(000, Theorem 2): the variables are X, Omega_Y = X Y and Z; the print leaves Z out and has "Omega_Yii".
     fn XN(&self, setup: &Setup) -> Expr {
         let Self { X, W, .. } = self;
-        X * &setup.family.Lambda_N - W * &setup.family.L_N
+        (X * &setup.family.Lambda_N - W * &setup.family.L_N).scaled(1.0 / self.units.time)
     }
 
     /// The bounded real inequality of `s.eps = N eps - T D2 v2, e = P eps + Q Phi D2 v2`.
@@ -112,6 +148,8 @@ impl Inequality {
             X * &family.Lambda_T - W * &family.L_T - (X * &family.Lambda_Psi - W * &family.L_Psi) * Phi_D2;
         let P = Expr::constant(&family.Lambda_P) - Z * &family.M_P;
         let QPhiD2 = (Expr::constant(&family.Lambda_Q) - Z * &family.M_Q) * Phi_D2;
+        let XTD2 = XTD2.scaled(self.units.source / self.units.time);
+        let QPhiD2 = QPhiD2.scaled(self.units.source);
         let gamma_I = |size| gamma.times(&DMatrix::identity(size, size));
 
         if beta == 0 {
@@ -142,7 +180,7 @@ impl Inequality {
     /// continuous: -(X N) - (X N)' - 2 alpha X > 0        discrete: [alpha X, X N; (X N)', alpha X] > 0
     /// ```
     fn demand_decay(&mut self, setup: &Setup, demands: &Demands) {
-        if demands.decay.is_none() && setup.decoupled.is_driven() {
+        if demands.decay.is_none() && setup.is_driven() {
             return; // (34) and (37) imply stability
         }
         let XN = self.XN(setup);
@@ -154,7 +192,7 @@ impl Inequality {
             let radius = self.X.scaled(demands.decay.unwrap_or(1.0));
             Expr::symmetric(vec![vec![radius.clone(), XN], vec![radius]])
         } else {
-            -XN.he() - self.X.scaled(2.0 * demands.decay.unwrap_or(0.0))
+            -XN.he() - self.X.scaled(2.0 * demands.decay.unwrap_or(0.0) / self.units.time)
         };
         self.problem.strict(name, source, block);
     }

@@ -120,7 +120,7 @@ fn demands(problem: &LocalProblem, choice: &DesignChoice) -> Result<Demands, Des
 /// A point of the inequality.
 struct Solved {
     X: DMatrix<f64>,
-    W: DMatrix<f64>,
+    Y: DMatrix<f64>,
     Z: DMatrix<f64>,
     gamma: f64,
     optimum: Option<f64>,
@@ -129,12 +129,12 @@ struct Solved {
 
 /// All phases; phase 1 alone when gamma is given or the couplings have no effect.
 fn solve(setup: &Setup, demands: &Demands, settings: &Settings) -> Result<Solved, Stop> {
-    let driven = setup.decoupled.is_driven();
+    let driven = setup.is_driven();
     if setup.family.order() == 0 && !driven {
         // order zero and nothing to attenuate: there is no inequality
         let (n, k) = (setup.decoupled.n_states(), setup.family.M_P.nrows());
-        let (X, W) = (DMatrix::zeros(0, 0), DMatrix::zeros(0, setup.family.L_N.nrows()));
-        return Ok(Solved { X, W, Z: DMatrix::zeros(n, k), gamma: 0.0, optimum: Some(0.0), iterations: 0 });
+        let (X, Y) = (DMatrix::zeros(0, 0), DMatrix::zeros(0, setup.family.L_N.nrows()));
+        return Ok(Solved { X, Y, Z: DMatrix::zeros(n, k), gamma: 0.0, optimum: Some(0.0), iterations: 0 });
     }
     let inequality = Inequality::new(setup, demands);
     let found = if demands.gamma.is_some() || !driven {
@@ -142,12 +142,19 @@ fn solve(setup: &Setup, demands: &Demands, settings: &Settings) -> Result<Solved
     } else {
         lmi::minimise(&inequality.problem, &inequality.gamma, settings)?
     };
+    // Y = X^-1 W is free of the units of X
+    let scaled = found.point.value(&inequality.X);
+    let Some(Y) = gain(&scaled, &found.point.value(&inequality.W)) else {
+        let what = "the Lyapunov matrix of the solver is singular: bound the gain or the condition of X";
+        return Err(Stop::GaveUp(what.to_owned()));
+    };
+    let gamma = inequality.attenuation_at(found.point.scalar(&inequality.gamma));
     Ok(Solved {
-        X: found.point.value(&inequality.X),
-        W: found.point.value(&inequality.W),
+        X: inequality.lyapunov(&found.point),
+        Y,
         Z: found.point.value(&inequality.Z),
-        gamma: if driven { found.point.scalar(&inequality.gamma) } else { 0.0 },
-        optimum: if driven { found.optimum } else { Some(0.0) },
+        gamma: if driven { gamma } else { 0.0 },
+        optimum: if driven { found.optimum.map(|best| inequality.attenuation_at(best)) } else { Some(0.0) },
         iterations: found.iterations,
     })
 }
@@ -159,24 +166,18 @@ fn finish(
     solved: &Solved,
     tolerance: &Tolerance,
 ) -> Result<Outcome<Local>, DesignError> {
-    let Solved { X, W, Z, gamma, .. } = solved;
-    // Y = X^-1 W
-    let Some(Y) = gain(X, W) else {
-        return Ok(Outcome::GaveUp(format!(
-            "subsystem {}: the Lyapunov matrix of the solver is singular; bound the gain or the condition of X",
-            setup.problem.name
-        )));
-    };
-    let matrices = setup.family.recover(&setup.decoupled, &Y, Z);
+    let Solved { X, Y, Z, gamma, .. } = solved;
+    let matrices = setup.family.recover(&setup.decoupled, Y, Z);
     let Judged { certificate, h_infinity, verification } =
         certificate::judge(&setup, &matrices, X, *gamma, demands, tolerance)?;
     let result = LmiResult {
         name: setup.problem.name.clone(),
         gamma_best: solved.optimum,
         gamma: Some(*gamma),
-        bounds: h_infinity.map(|norm| ("H-infinity norm".to_owned(), norm.lower)).into_iter().collect(),
+        h_infinity,
+        bounds: Vec::new(),
         contraction: None,
-        gain: norm(&Y)?.max(norm(Z)?),
+        gain: norm(Y)?.max(norm(Z)?),
         fixed_modes: setup.fixed_modes.clone(),
         fastest_decay: setup.fastest_decay(),
         iterations: solved.iterations,

@@ -39,12 +39,12 @@ impl Search<'_> {
 
     /// The least gamma with the other demands as they are.
     fn gamma(&self, demands: &Demands) -> Option<Option<f64>> {
-        if demands.gamma.is_none() || !self.setup.decoupled.is_driven() {
+        if demands.gamma.is_none() || !self.setup.is_driven() {
             return Some(None);
         }
         let free = Inequality::new(self.setup, &Demands { gamma: None, ..*demands });
         match lmi::optimum(&free.problem, &free.gamma, self.settings) {
-            Ok(found) => Some(found.optimum.map(|gamma| gamma * (1.0 + INSIDE))),
+            Ok(found) => Some(found.optimum.map(|scaled| free.attenuation_at(scaled) * (1.0 + INSIDE))),
             Err(Stop::Cancelled) => None,
             Err(Stop::Infeasible { .. } | Stop::GaveUp(_)) => Some(None),
         }

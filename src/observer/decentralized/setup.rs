@@ -127,6 +127,15 @@ impl Setup {
         if self.problem.is_discrete() { slowest } else { slowest.map(|rate| -rate) }
     }
 
+    /// Whether the attenuated columns can act on the estimate at all.
+    ///
+    /// They cannot when `Phi D2 = 0` and `Pi D2 = 0`, the latter being of no matter for order zero: gamma is then zero.
+    pub fn is_driven(&self) -> bool {
+        let Decoupled { D2_bar, Phi_D2, .. } = &self.decoupled;
+        let acts = |matrix: &DMatrix<f64>| matrix.iter().any(|x| *x != 0.0);
+        acts(Phi_D2) || (self.family.order() > 0 && acts(D2_bar))
+    }
+
     /// Whether the fixed modes allow stability.
     pub fn stabilisable(&self, tolerance: &Tolerance) -> bool {
         let region = self.region();

@@ -4,6 +4,7 @@ mod arguments;
 #[cfg(feature = "gui")]
 pub(super) mod dialogs;
 mod files;
+mod parallel;
 mod threads;
 
 use std::ffi::OsString;
@@ -11,6 +12,7 @@ use std::io::{stderr, stdout};
 
 pub use arguments::parse;
 pub use files::NativeFiles;
+pub use parallel::Threads;
 pub(super) use threads::ThreadRunner;
 
 use crate::headless;
