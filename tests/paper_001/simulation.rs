@@ -39,7 +39,10 @@ fn following(texts: &[&str]) -> FreeVariables {
 
 /// `e^M` by Taylor series after scaling, apart from the product's own exponential.
 fn exponential(m: &DMatrix<f64>) -> DMatrix<f64> {
-    let halvings = 10 + m.norm().max(1.0).log2().ceil() as i32;
+    let (mut halvings, mut size) = (10, m.norm());
+    while size > 1.0 {
+        (halvings, size) = (halvings + 1, size / 2.0);
+    }
     let small = m / 2.0_f64.powi(halvings);
     let mut term = DMatrix::identity(m.nrows(), m.ncols());
     let mut sum = term.clone();

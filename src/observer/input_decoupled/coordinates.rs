@@ -160,31 +160,31 @@ mod tests {
     }
 
     /// `M E N = diag(I, 0)`.
-    fn check(E: DMatrix<f64>) -> Coordinates {
+    fn check(E: &DMatrix<f64>) -> Coordinates {
         let found = split(E.clone());
         let (M, N) = (stack(&[&found.M1, &found.M2]), side_by_side(&[&found.N1, &found.N2]));
         let mut wanted = DMatrix::zeros(E.nrows(), E.ncols());
         wanted.view_mut((0, 0), (found.r(), found.r())).fill_with_identity();
-        let off = (M * &E * N - wanted).norm();
+        let off = (M * E * N - wanted).norm();
         assert!(off < 1e-14, "M E N = diag(I, 0) for {E}: off by {off:.1e}");
         found
     }
 
     #[test]
     fn states_keep_their_names_where_sorting_is_enough() {
-        let found = check(dmatrix![0.0, 0.0, 0.0; 0.0, 0.0, 2.0; 1.0, 0.0, 1.0]);
+        let found = check(&dmatrix![0.0, 0.0, 0.0; 0.0, 0.0, 2.0; 1.0, 0.0, 1.0]);
         assert_eq!(found.N1, dmatrix![1.0, 0.0; 0.0, 0.0; 0.0, 1.0], "x1 = (x1, x3)");
         assert_eq!(found.N2, dmatrix![0.0; 1.0; 0.0], "x2 is the algebraic state");
     }
 
     #[test]
     fn dependent_rows_are_split_by_singular_values() {
-        assert_eq!(check(dmatrix![1.0, 2.0, 0.0; 2.0, 4.0, 0.0]).r(), 1, "two proportional rows");
+        assert_eq!(check(&dmatrix![1.0, 2.0, 0.0; 2.0, 4.0, 0.0]).r(), 1, "two proportional rows");
     }
 
     #[test]
     fn no_derivatives_and_nothing_but_derivatives() {
-        assert_eq!(check(DMatrix::zeros(2, 3)).r(), 0, "all equations are algebraic");
-        assert_eq!(check(dmatrix![0.0, 3.0; 1.0, 1.0]).r(), 2, "none is");
+        assert_eq!(check(&DMatrix::zeros(2, 3)).r(), 0, "all equations are algebraic");
+        assert_eq!(check(&dmatrix![0.0, 3.0; 1.0, 1.0]).r(), 2, "none is");
     }
 }
