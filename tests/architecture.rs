@@ -26,10 +26,9 @@ const LAYERS: [&str; 12] = [
 const ALSO_FORBIDDEN: [(&str, &str); 2] = [("numerics", "expression"), ("headless", "session")];
 
 /// A foreign crate and the files that may name it.
-const OWNERS: [(&str, &[&str]); 11] = [
+const OWNERS: [(&str, &[&str]); 10] = [
     ("faer", &["src/numerics/svd.rs", "src/numerics/eigen.rs"]),
     ("clarabel", &["src/lmi/clarabel.rs"]),
-    ("diffsol", &["src/numerics/integrate/stiff.rs"]),
     ("serde_json", &["src/document/", "src/headless/", "src/gui/state_report.rs"]),
     ("postcard", &["src/platform/message.rs"]),
     ("miniz_oxide", &["src/document/link.rs"]),

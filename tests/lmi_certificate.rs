@@ -70,7 +70,7 @@ fn what_is_not_a_number_becomes_the_whole_line() {
 fn near_singular_matrices_are_never_proved_falsely() {
     let mut random = Random::new(2);
     let (mut proved, mut definite, mut missed) = (0, 0, 0);
-    for trial in 0..600 {
+    for trial in 0..400 {
         let n = 2 + trial % 5;
         let factor = gaussian(&mut random, n, n - 1);
         let mut matrix = &factor * factor.transpose();
@@ -93,7 +93,7 @@ fn near_singular_matrices_are_never_proved_falsely() {
         definite += usize::from(truth);
         missed += usize::from(truth && !found);
     }
-    assert!(proved > 120, "{proved} proved of {definite} definite ones: the test is not blind");
+    assert!(proved > 80, "{proved} proved of {definite} definite ones: the test is not blind");
     assert!(missed < definite / 2, "{missed} of {definite} are within a few roundings of singular");
 }
 
@@ -114,7 +114,7 @@ fn a_proof_holds_for_every_matrix_within_the_intervals() {
             continue;
         }
         proved += 1;
-        for _ in 0..10 {
+        for _ in 0..3 {
             let mut member = DMatrix::zeros(n, n);
             for i in 0..n {
                 for j in i..n {

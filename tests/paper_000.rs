@@ -340,8 +340,9 @@ fn the_printed_lyapunov_matrices_prove_only_large_gammas() {
 
 fn trajectory(observer: &LinearObserver) -> Trajectory {
     let document = read_document(include_str!("documents/000-partition.json")).unwrap();
-    let system = model(TimeDomain::Discrete).system;
-    document.scenario(&system).run_linear(&system, &[observer], &tolerance()).unwrap()
+    let model = model(TimeDomain::Discrete);
+    let scenario = document.scenario(&model.system);
+    scenario.run(&model, &[observer.into()], &tolerance(), &Watch::none()).unwrap()
 }
 
 fn vector(value: &Value) -> Vec<f64> {

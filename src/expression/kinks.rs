@@ -97,10 +97,10 @@ fn line(code: &[Instruction]) -> Option<(f64, f64)> {
 fn whole_numbers((a, b): (f64, f64), (from, to): (f64, f64)) -> impl Iterator<Item = f64> {
     let (start, end) = (a + b * from, a + b * to);
     let (first, last) = (start.min(end).ceil(), start.max(end).floor());
-    let count = MAX_JUMPS.min(if last >= first { (last - first) as usize + 1 } else { 0 });
     // the earliest come first, whichever way the line runs
     let whole = move |k: usize| if b > 0.0 { first + k as f64 } else { last - k as f64 };
-    (0..count).map(move |k| (whole(k) - a) / b)
+    let inside = move |whole: &f64| *whole >= first && *whole <= last;
+    (0..MAX_JUMPS).map(whole).take_while(inside).map(move |whole| (whole - a) / b)
 }
 
 #[cfg(test)]

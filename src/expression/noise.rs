@@ -41,6 +41,22 @@ fn unit(bits: u64) -> f64 {
     (bits >> 11) as f64 * (1.0 / (1_u64 << 53) as f64)
 }
 
+/// `1 / 1, 1 / 3, ..., 1 / 23`.
+const ODD: [f64; 12] = [
+    1.0,
+    1.0 / 3.0,
+    1.0 / 5.0,
+    1.0 / 7.0,
+    1.0 / 9.0,
+    1.0 / 11.0,
+    1.0 / 13.0,
+    1.0 / 15.0,
+    1.0 / 17.0,
+    1.0 / 19.0,
+    1.0 / 21.0,
+    1.0 / 23.0,
+];
+
 /// `ln x` for normal positive `x`: `k ln 2 + 2 atanh((m - 1) / (m + 1))`, `x = 2^k m`, `m` within a factor `sqrt 2` of 1.
 fn ln(x: f64) -> f64 {
     let bits = x.to_bits();
@@ -51,7 +67,7 @@ fn ln(x: f64) -> f64 {
         exponent += 1.0;
     }
     let s = (mantissa - 1.0) / (mantissa + 1.0);
-    let series = (0..12).rev().fold(0.0, |sum, k| sum * (s * s) + 1.0 / f64::from(2 * k + 1));
+    let series = ODD.iter().rev().fold(0.0, |sum, part| sum * (s * s) + part);
     exponent * std::f64::consts::LN_2 + 2.0 * s * series
 }
 

@@ -162,3 +162,62 @@ fn answer(solver: &DefaultSolver<f64>) -> Answer {
         seconds: solution.solve_time,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `min x` with `x >= 1` and `[x, 2; 2, x] >= 0`: the answer is 2.
+    fn program() -> Program {
+        Program {
+            objective: vec![1.0],
+            entries: vec![(0, 0, -1.0), (1, 0, -1.0), (3, 0, -1.0)],
+            offsets: vec![-1.0, 0.0, 2.0 * std::f64::consts::SQRT_2, 0.0],
+            cones: vec![Cone::Positive(1), Cone::Semidefinite(2)],
+            ..Program::default()
+        }
+    }
+
+    fn run(program: &Program, watch: &Watch, seconds: f64, enough: Option<f64>) -> Answer {
+        solve(program, &Limits { seconds, watch, label: "test", effort: Effort { tolerance: 1e-9, enough } })
+    }
+
+    #[test]
+    fn a_small_program_is_solved_with_its_multipliers() {
+        let answer = run(&program(), &Watch::none(), 5.0, None);
+        assert_eq!(answer.end, End::Solved, "{answer:?}");
+        assert!((answer.x[0] - 2.0).abs() < 1e-8, "x = {}", answer.x[0]);
+        // stationarity: 1 = z0 + tr Z; x >= 1 is idle
+        assert!(answer.multipliers[0].abs() < 1e-7, "idle bound: {:?}", answer.multipliers);
+        assert!(
+            (answer.multipliers[1] + answer.multipliers[3] - 1.0).abs() < 1e-7,
+            "{:?}",
+            answer.multipliers
+        );
+    }
+
+    #[test]
+    fn ends_are_told_apart() {
+        let stop = Watch::new(|_, text| !text.starts_with("test: iteration 1"));
+        assert_eq!(run(&program(), &stop, 5.0, None).end, End::Cancelled, "the watch said stop");
+        assert_eq!(run(&program(), &Watch::none(), 0.0, None).end, End::OutOfTime, "no time at all");
+        assert_eq!(run(&program(), &Watch::none(), 5.0, Some(1.5)).end, End::Exceeded, "2 exceeds 1.5");
+        assert_eq!(run(&program(), &Watch::none(), 5.0, Some(2.5)).end, End::Solved, "2 does not exceed 2.5");
+        let mut unbounded = program();
+        unbounded.objective = vec![-1.0];
+        assert_eq!(run(&unbounded, &Watch::none(), 5.0, None).end, End::Unbounded, "x may grow");
+        let mut infeasible = program();
+        infeasible.entries[0].2 = 1.0;
+        assert_eq!(run(&infeasible, &Watch::none(), 5.0, None).end, End::Infeasible, "x <= -1 and x >= 2");
+    }
+
+    #[test]
+    fn a_mistaken_program_is_an_answer_not_a_panic() {
+        let mut wrong = program();
+        wrong.cones.pop();
+        assert!(
+            matches!(run(&wrong, &Watch::none(), 5.0, None).end, End::Doubtful(_)),
+            "rows without a cone"
+        );
+    }
+}

@@ -142,3 +142,56 @@ impl Run<'_> {
         Candidate { x, margin: self.scaled.smallest_eigenvalue(&xi, true).min(1.0), size: largest(&xi) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lmi::{Expr, Problem, Settings};
+    use nalgebra::dmatrix;
+
+    /// `[x, 2; 2, y] > 0`, least `x + y`: 4 at `x = y = 2`.
+    fn problem() -> (Problem, Expr) {
+        let mut problem = Problem::new();
+        let (x, y) = (problem.scalar("x"), problem.scalar("y"));
+        let two = Expr::constant(&dmatrix![2.0]);
+        problem.strict("block", "test", Expr::symmetric(vec![vec![x.clone(), two], vec![y.clone()]]));
+        (problem, x + y)
+    }
+
+    fn step() -> Step {
+        Step::new("test", &Watch::none(), 0.0, 1.0)
+    }
+
+    #[test]
+    fn bisection_agrees_with_the_solver() {
+        let ((problem, objective), settings) = (problem(), Settings::default());
+        let mut run = Run::new(&problem, &objective, &settings).unwrap();
+        let interior = run.interior(&step()).unwrap();
+        let solver = run.least_by_solver(&step()).unwrap().unwrap();
+        let bisection = run.least_by_bisection(&interior, &step()).unwrap();
+        let value = |candidate: &Candidate| run.scaled.original_objective(run.objective(candidate));
+        assert!((value(&solver) - 4.0).abs() < 1e-7, "solver {}", value(&solver));
+        assert!((0.0..1e-3).contains(&(value(&bisection) - 4.0)), "bisection {}", value(&bisection));
+        assert!(bisection.margin > 0.0, "bisection ends inside: margin {}", bisection.margin);
+    }
+
+    #[test]
+    fn bisection_notices_an_objective_without_bound() {
+        let ((problem, objective), settings) = (problem(), Settings::default());
+        let mut run = Run::new(&problem, &-objective, &settings).unwrap();
+        let interior = run.interior(&step()).unwrap();
+        let stop = run.least_by_bisection(&interior, &step()).unwrap_err();
+        assert!(matches!(&stop, Stop::GaveUp(why) if why.contains("no lower bound")), "{stop}");
+    }
+
+    #[test]
+    fn between_two_points_the_objective_is_at_the_level_and_the_margin_positive() {
+        let ((problem, objective), settings) = (problem(), Settings::default());
+        let mut run = Run::new(&problem, &objective, &settings).unwrap();
+        let (interior, least) = run.least(&Watch::none()).unwrap();
+        let level = 1.01 * run.objective(&least);
+        let found = run.between(&interior, &least, level);
+        assert!((run.objective(&found) / level - 1.0).abs() < 1e-9, "objective {}", run.objective(&found));
+        assert!(found.margin > 0.0, "margin {}", found.margin);
+    }
+}

@@ -26,7 +26,7 @@ pub(super) struct Program {
     pub(super) offsets: Vec<f64>,
     pub(super) cones: Vec<Cone>,
     /// For each block of the problem the rows of its diagonal.
-    diagonals: Vec<Vec<usize>>,
+    pub(super) diagonals: Vec<Vec<usize>>,
 }
 
 /// What a phase looks for.
@@ -120,5 +120,61 @@ impl Program {
     pub(super) fn multiplier_traces(&self, multipliers: &[f64]) -> Vec<f64> {
         let at = |row: &usize| multipliers.get(*row).copied().unwrap_or(0.0);
         self.diagonals.iter().map(|rows| rows.iter().map(at).sum()).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lmi::{Expr, Problem, Settings};
+    use nalgebra::dmatrix;
+
+    /// `X > 0` for `X = [x0, x1; x1, x2]` and the bound `5 - x2 >= 0`; all data are ones but the five.
+    fn scaled() -> Scaled {
+        let mut problem = Problem::new();
+        let x = problem.symmetric("X", 2);
+        let last = dmatrix![0.0, 1.0] * &x * dmatrix![0.0; 1.0];
+        problem.strict("X > 0", "test", x.clone());
+        problem.bound("x2 <= 5", "test", Expr::constant(&dmatrix![5.0]) - last);
+        Scaled::new(&problem, &x.trace(), &Settings::default()).unwrap()
+    }
+
+    /// `b - A x` for one row.
+    fn slack(program: &Program, row: usize, x: &[f64]) -> f64 {
+        let of_row = program.entries.iter().filter(|entry| entry.0 == row);
+        program.offsets[row] - of_row.map(|(_, column, value)| value * x[*column]).sum::<f64>()
+    }
+
+    #[test]
+    fn slacks_are_the_triangle_with_weighted_off_diagonals_minus_the_margin() {
+        let (scaled, x, t) = (scaled(), [2.0, 3.0, 4.0], 0.5);
+        let program = Program::new(&scaled, Goal::Margin { level: None, all: false }, 10.0);
+        let point = [&scaled.balanced_point(&x)[..], &[t]].concat();
+        assert_eq!(program.cones, [Cone::Positive(8), Cone::Semidefinite(2)], "t, six sides, one bound, X");
+        let rows = program.offsets.len();
+        let upper: Vec<f64> = scaled.blocks[0].upper.iter().map(|entry| entry.value(&point)).collect();
+        let found: Vec<f64> = (rows - 3..rows).map(|row| slack(&program, row, &point)).collect();
+        assert_eq!(found, [upper[0] - t, SQRT_2 * upper[1], upper[2] - t], "x00 - t, sqrt 2 x01, x11 - t");
+        assert_eq!(slack(&program, 0, &point), 0.5, "1 - t");
+        let bound = scaled.blocks[1].upper[0].value(&point);
+        assert_eq!(slack(&program, 7, &point), bound, "a bound has no margin");
+    }
+
+    #[test]
+    fn a_level_limits_the_objective() {
+        let scaled = scaled();
+        let program = Program::new(&scaled, Goal::Margin { level: Some(4.0), all: false }, 10.0);
+        let (below, above) = ([1.0, 0.0, 1.0, 0.0], [9.0, 0.0, 9.0, 0.0]);
+        let value = |xi: &[f64]| (4.0 - scaled.objective.value(xi)) / 4.0;
+        for xi in [below, above] {
+            assert!((slack(&program, 1, &xi) - value(&xi)).abs() < 1e-15, "(level - objective) / |level|");
+        }
+    }
+
+    #[test]
+    fn traces_of_multipliers_are_sums_over_diagonals() {
+        let program = Program::new(&scaled(), Goal::Margin { level: None, all: false }, 10.0);
+        let multipliers: Vec<f64> = (0..program.offsets.len()).map(|row| row as f64).collect();
+        assert_eq!(program.multiplier_traces(&multipliers), [8.0 + 10.0, 7.0], "rows 8 and 10 of X, row 7");
     }
 }

@@ -202,3 +202,65 @@ fn times_power(x: f64, exponent: i32) -> f64 {
     let half = exponent / 2;
     x * f64::exp2(f64::from(half)) * f64::exp2(f64::from(exponent - half))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::dmatrix;
+
+    /// `[x0 + 3e8, 1e4 x1; ., x2]` and the objective `1e6 x0`.
+    fn problem() -> (Problem, Expr) {
+        let mut problem = Problem::new();
+        let x = problem.symmetric("X", 2);
+        let units = dmatrix![1.0, 0.0; 0.0, 1e4];
+        let block = &units * &x * &units + Expr::constant(&dmatrix![3e8, 0.0; 0.0, 0.0]);
+        problem.strict("block", "test", block);
+        let first = dmatrix![1.0, 0.0] * x * dmatrix![1.0; 0.0];
+        (problem, first.scaled(1e6))
+    }
+
+    fn inertia(scaled: &Scaled, x: &[f64]) -> bool {
+        scaled.smallest_eigenvalue(&scaled.balanced_point(x), true) > 0.0
+    }
+
+    #[test]
+    fn balancing_and_centring_keep_what_is_feasible_and_the_objective() {
+        let (problem, objective) = problem();
+        let plain = Scaled::new(&problem, &objective, &Settings::default()).unwrap();
+        let centre = [2e3, 0.1, 40.0];
+        let centred = plain.centred(&problem, &plain.balanced_point(&centre));
+        for scaled in [&plain, &centred] {
+            assert_eq!(
+                scaled.original(&scaled.balanced_point(&centre)),
+                centre,
+                "powers of two round nothing"
+            );
+            assert!(inertia(scaled, &[0.0, 1e3, 1.0]), "3e8 * 1e8 > (1e3 * 1e4)^2");
+            assert!(!inertia(scaled, &[0.0, 2e4, 1.0]), "3e8 * 1e8 < (2e4 * 1e4)^2");
+            let value = scaled.original_objective(scaled.objective.value(&scaled.balanced_point(&centre)));
+            assert_eq!(value, 2e9, "1e6 * 2e3");
+        }
+        let xi = centred.balanced_point(&centre);
+        let matrix = centred.blocks[0].upper.iter().map(|entry| entry.value(&xi)).collect::<Vec<_>>();
+        assert!(
+            xi.iter().all(|x| x.abs() <= 2.0)
+                && [matrix[0], matrix[2]].iter().all(|x| (0.25..=4.0).contains(x)),
+            "the centre {xi:?} and its diagonal {matrix:?} are of order one"
+        );
+    }
+
+    #[test]
+    fn numbers_that_no_units_bring_together_are_refused() {
+        let mut problem = Problem::new();
+        let x = problem.scalar("x");
+        let block = Expr::symmetric(vec![
+            vec![x.clone() + Expr::identity(1), x.scaled(1e90)],
+            vec![x.clone() + Expr::identity(1)],
+        ]);
+        problem.strict("block", "test", block);
+        let Err(Stop::GaveUp(why)) = Scaled::new(&problem, &x, &Settings::default()) else {
+            panic!("1e90 x beside x and 1");
+        };
+        assert!(why.contains("far larger"), "{why}");
+    }
+}

@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, DVector, DVectorView};
 
+use super::direct::Direct;
 use super::joint::{Joint, Values};
-use super::newton::newton;
 use super::plant::{Frozen, Nonlinear};
 use super::{Observed, SimulationError};
 
@@ -30,7 +30,7 @@ pub(super) struct Estimate {
     /// The estimate without the nonlinearity.
     pub(super) open: DVector<f64>,
     /// The last accepted `f`, from which an implicit equation is solved.
-    anchor: Option<DVector<f64>>,
+    pub(super) anchor: Option<DVector<f64>>,
     /// Whether `f` depends on what it adds to the estimate.
     pub(super) implicit: bool,
 }
@@ -42,10 +42,13 @@ pub(super) struct Estimate {
 #[derive(Clone, Debug)]
 pub(super) struct Evaluator<'a> {
     pub(super) joint: &'a Joint<'a>,
-    frozen: Frozen,
+    pub(super) frozen: Frozen,
     frozen_at: f64,
+    direct: Option<Direct>,
     /// Signals at the instant.
     pub(super) values: Values,
+    /// When they were read: the last two stages of a step lie at the same instant.
+    read_at: f64,
     /// States of the plant.
     pub(super) x: DVector<f64>,
     /// Outputs.
@@ -55,12 +58,12 @@ pub(super) struct Evaluator<'a> {
     pub(super) estimates: Vec<Estimate>,
     /// Why the last evaluation failed.
     pub(super) trouble: Option<Trouble>,
-    forcing: DVector<f64>,
-    f: DVector<f64>,
-    eta: DVector<f64>,
-    anchor: DVector<f64>,
-    sign: Option<f64>,
-    accepted_sign: Option<f64>,
+    pub(super) forcing: DVector<f64>,
+    pub(super) f: DVector<f64>,
+    pub(super) eta: DVector<f64>,
+    pub(super) anchor: DVector<f64>,
+    pub(super) sign: Option<f64>,
+    pub(super) accepted_sign: Option<f64>,
     /// `[x; t]`
     pub(super) point: Vec<f64>,
 }
@@ -83,7 +86,9 @@ impl<'a> Evaluator<'a> {
             joint,
             frozen: plant.freeze(0.0),
             frozen_at: 0.0,
+            direct: Direct::new(joint),
             values: joint.silence(),
+            read_at: f64::NAN,
             x: DVector::zeros(n),
             y: DVector::zeros(p),
             derivative: DVector::zeros(joint.order()),
@@ -101,8 +106,11 @@ impl<'a> Evaluator<'a> {
 
     /// Evaluates everything at an instant; false, with a reason in `trouble`, where there is no value.
     pub(super) fn evaluate(&mut self, t: f64, w: &[f64]) -> bool {
-        self.joint.read(t, &mut self.values);
-        let found = match self.joint.silent(&self.values, t) {
+        if self.read_at != t {
+            self.joint.read(t, &mut self.values);
+            self.read_at = t;
+        }
+        let found = match Joint::silent(&self.values, t) {
             Some(signal) => Err(Trouble::Signal(signal)),
             None => self.evaluate_given(t, w),
         };
@@ -117,6 +125,11 @@ impl<'a> Evaluator<'a> {
 
     /// As [`Self::evaluate`], with the signals that stand in `values`.
     pub(super) fn evaluate_given(&mut self, t: f64, w: &[f64]) -> Result<(), Trouble> {
+        if let Some(mut direct) = self.direct.take() {
+            let found = self.evaluate_directly(&mut direct, t, w);
+            self.direct = Some(direct);
+            return found;
+        }
         let joint = self.joint;
         let (plant, system) = (joint.plant, joint.plant.system());
         if plant.varies() && self.frozen_at != t {
@@ -187,46 +200,18 @@ impl<'a> Evaluator<'a> {
 
     /// `f(t, x)`, and the forcing with `G f`.
     fn nonlinearity(&mut self, t: f64, nonlinear: &Nonlinear) -> Result<(), Trouble> {
+        self.value(t, nonlinear)?;
+        self.forcing.gemv(1.0, &nonlinear.term.G, &self.f, 1.0);
+        Ok(())
+    }
+
+    /// `f(t, x)`.
+    pub(super) fn value(&mut self, t: f64, nonlinear: &Nonlinear) -> Result<(), Trouble> {
         place(&mut self.point, &self.x, t);
         nonlinear.term.value_into(&self.point, self.f.as_mut_slice());
         if self.f.iter().any(|f| !f.is_finite()) {
             return Err(Trouble::Nonlinearity { t, x: self.x.iter().copied().collect() });
         }
-        self.forcing.gemv(1.0, &nonlinear.term.G, &self.f, 1.0);
-        Ok(())
-    }
-
-    /// `U2' (A x + forcing + G f(t, x)) = 0` for `x = V1 xi + V2 eta`.
-    fn solve_implicit(&mut self, t: f64, nonlinear: &Nonlinear) -> Result<(), Trouble> {
-        let (plant, term) = (self.joint.plant, &nonlinear.term);
-        let rest = self.x.clone();
-        let (mut x, mut all) = (rest.clone(), self.forcing.clone());
-        let mut f = self.f.clone();
-        let mut slopes = DMatrix::zeros(f.len(), x.len());
-        let mut direction = vec![0.0; x.len()];
-        let a22 = &plant.algebraic_rows * self.frozen.a() * &plant.algebraic_columns;
-        let (point, forcing, frozen) = (&mut self.point, &self.forcing, &self.frozen);
-        let mut eta = self.anchor.clone();
-        let size = rest.amax().max(eta.amax());
-        let sign = newton(&mut eta, size, &mut |eta, residual, jacobian| {
-            x.copy_from(&rest);
-            x.gemv(1.0, &plant.algebraic_columns, eta, 1.0);
-            place(point, &x, t);
-            term.value_into(point, f.as_mut_slice());
-            term.jacobian_into(point, &mut direction, &mut slopes);
-            all.copy_from(forcing);
-            all.gemv(1.0, frozen.a(), &x, 1.0);
-            residual.gemv(1.0, &plant.algebraic_rows, &all, 0.0);
-            residual.gemv(1.0, &nonlinear.weights, &f, 1.0);
-            jacobian.copy_from(&a22);
-            *jacobian += &nonlinear.weights * (&slopes * &plant.algebraic_columns);
-            residual.iter().chain(jacobian.iter()).all(|x| x.is_finite())
-        });
-        let sign = sign.filter(|sign| self.accepted_sign.is_none_or(|accepted| accepted == *sign));
-        self.sign = Some(sign.ok_or(Trouble::Algebraic { t })?);
-        self.x.copy_from(&rest);
-        self.x.gemv(1.0, &plant.algebraic_columns, &eta, 1.0);
-        self.eta = eta;
         Ok(())
     }
 
@@ -260,46 +245,12 @@ impl<'a> Evaluator<'a> {
 
     /// `x_hat = P z + V y + W u + M f(t, x_hat)` for an observer, solved for `f`.
     fn estimate(&mut self, t: f64, i: usize, z: &DVectorView<'_, f64>) -> Result<(), Trouble> {
-        let Observed { observer, injection } = self.joint.observers[i];
-        let own = &mut self.estimates[i];
-        own.open.gemv(1.0, &observer.P, z, 0.0);
-        own.open.gemv(1.0, &observer.V, &self.y, 1.0);
-        own.open.gemv(1.0, &observer.W, &self.values.u, 1.0);
-        own.x_hat.copy_from(&own.open);
-        let (Some(injection), Some(nonlinear)) = (injection, &self.joint.plant.nonlinear) else {
-            return Ok(());
-        };
-        let (term, point) = (&nonlinear.term, &mut self.point);
-        place(point, &own.open, t);
-        term.value_into(point, own.f.as_mut_slice());
-        if own.implicit {
-            let mut slopes = DMatrix::zeros(own.f.len(), own.open.len());
-            let mut direction = vec![0.0; own.open.len()];
-            let mut f = own.anchor.clone().unwrap_or_else(|| own.f.clone());
-            let size = f.amax().max(f64::MIN_POSITIVE);
-            let (open, x_hat, value) = (&own.open, &mut own.x_hat, &mut own.f);
-            // f - f(t, open + M f) = 0
-            let solved = newton(&mut f, size, &mut |f, residual, jacobian| {
-                x_hat.copy_from(open);
-                x_hat.gemv(1.0, &injection.estimate, f, 1.0);
-                place(point, x_hat, t);
-                term.value_into(point, value.as_mut_slice());
-                term.jacobian_into(point, &mut direction, &mut slopes);
-                residual.copy_from(f);
-                *residual -= &*value;
-                jacobian.fill_with_identity();
-                jacobian.gemm(-1.0, &slopes, &injection.estimate, 1.0);
-                residual.iter().chain(jacobian.iter()).all(|x| x.is_finite())
-            });
-            solved.ok_or(Trouble::Estimate { t, observer: i })?;
-            own.f = f;
-            own.x_hat.copy_from(&own.open);
-        }
-        own.x_hat.gemv(1.0, &injection.estimate, &own.f, 1.0);
-        if own.f.iter().any(|f| !f.is_finite()) {
-            return Err(Trouble::Nonlinearity { t, x: own.x_hat.iter().copied().collect() });
-        }
-        Ok(())
+        let Observed { observer, .. } = self.joint.observers[i];
+        let open = &mut self.estimates[i].open;
+        open.gemv(1.0, &observer.P, z, 0.0);
+        open.gemv(1.0, &observer.V, &self.y, 1.0);
+        open.gemv(1.0, &observer.W, &self.values.u, 1.0);
+        self.solve_estimate(t, i)
     }
 
     /// Computes the estimates that the last evaluation did not need.
@@ -308,7 +259,7 @@ impl<'a> Evaluator<'a> {
         for i in 0..self.estimates.len() {
             let Observed { observer, injection } = self.joint.observers[i];
             let order = observer.order();
-            if injection.is_none() {
+            if injection.is_none() && self.direct.is_none() {
                 let z = DVectorView::from_slice(&w[top..top + order], order);
                 // without injection there is nothing to solve
                 let plain = self.estimate(t, i, &z);
@@ -337,7 +288,7 @@ impl<'a> Evaluator<'a> {
 }
 
 /// `[x; t]`.
-fn place(point: &mut [f64], x: &DVector<f64>, t: f64) {
+pub(super) fn place(point: &mut [f64], x: &DVector<f64>, t: f64) {
     if let Some((last, states)) = point.split_last_mut() {
         states.copy_from_slice(x.as_slice());
         *last = t;

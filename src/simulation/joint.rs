@@ -100,7 +100,7 @@ impl<'a> Joint<'a> {
     }
 
     /// The first signal without a finite value.
-    pub(super) fn silent(&self, values: &Values, time: f64) -> Option<SimulationError> {
+    pub(super) fn silent(values: &Values, time: f64) -> Option<SimulationError> {
         Self::first(values, |x| !x.is_finite()).map(|(signal, index)| SimulationError::Signal {
             signal,
             index,
@@ -109,7 +109,7 @@ impl<'a> Joint<'a> {
     }
 
     /// The name of the first signal that is too large to be followed.
-    pub(super) fn too_large(&self, values: &Values) -> Option<String> {
+    pub(super) fn too_large(values: &Values) -> Option<String> {
         Self::first(values, |x| x.abs() > LARGEST_STATE)
             .map(|(signal, index)| format!("{signal} {}", index + 1))
     }
@@ -124,7 +124,7 @@ impl<'a> Joint<'a> {
     pub(super) fn finite_values(&self, t: f64) -> Result<Values, SimulationError> {
         let mut values = self.silence();
         self.read(t, &mut values);
-        self.silent(&values, t).map_or(Ok(values), Err)
+        Self::silent(&values, t).map_or(Ok(values), Err)
     }
 
     /// Whether an observer's estimate depends on itself through the nonlinearity.

@@ -1,8 +1,10 @@
 //! L3: plant and observer together in time.
 
 mod constant;
+mod direct;
 mod error;
 mod evaluator;
+mod implicit;
 mod index;
 mod jacobian;
 mod joint;

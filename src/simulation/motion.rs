@@ -4,14 +4,14 @@ use nalgebra::{DMatrix, DVector};
 
 use super::evaluator::Evaluator;
 use super::record::Record;
-use super::run::LARGEST_STATE;
+use super::run::{LARGEST_STATE, STEP, fraction};
 use super::singularity::Singularity;
 use super::{Method, SimulationError};
 use crate::numerics::Watch;
 use crate::numerics::integrate::{Ending, Flow, IntegrationError, Integrator, Segment, StepOptions};
 
 /// Relative error of a step.
-const RELATIVE: f64 = 1e-9;
+const RELATIVE: f64 = 3e-9;
 /// First and smallest step, relative to the horizon.
 const FIRST_STEP: f64 = 1e-4;
 const SMALLEST_STEP: f64 = 1e-15;
@@ -56,7 +56,7 @@ impl Flow for Motion<'_, '_> {
     fn accepted(&mut self, t: f64, state: &[f64]) -> bool {
         self.count += 1;
         let horizon = self.grid.last().copied().unwrap_or(t);
-        if self.count.is_multiple_of(BETWEEN_LOOKS) && !self.watch.go_on((t / horizon) as f32, "simulation") {
+        if self.count.is_multiple_of(BETWEEN_LOOKS) && !self.watch.go_on(fraction(t, horizon), STEP) {
             self.record.stop(SimulationError::Cancelled);
             return false;
         }

@@ -81,7 +81,7 @@ impl<'a> Record<'a> {
     pub(super) fn push(&mut self, t: f64, w: &[f64], evaluator: &mut Evaluator<'_>) -> bool {
         evaluator.complete_estimates(t, w);
         let values = evaluator.values.clone();
-        if let Some(signal) = self.joint.too_large(&values) {
+        if let Some(signal) = Joint::too_large(&values) {
             self.close_by_signal(t, &signal);
             return false;
         }
@@ -135,7 +135,7 @@ impl<'a> Record<'a> {
 
     /// Ends the record before time `t` because a state became too large, by itself or by an input.
     pub(super) fn overflow(&mut self, t: f64) {
-        match self.joint.finite_values(t).map(|values| self.joint.too_large(&values)) {
+        match self.joint.finite_values(t).map(|values| Joint::too_large(&values)) {
             Ok(None) => self.close(t, "a state"),
             Ok(Some(signal)) => self.close_by_signal(t, &signal),
             Err(error) => self.error = Some(error),

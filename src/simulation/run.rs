@@ -137,6 +137,12 @@ pub fn simulate_observed(
     Ok(trajectory)
 }
 
+/// How far a simulation is, for a watch.
+#[expect(clippy::cast_possible_truncation, reason = "progress needs no more digits")]
+pub(super) fn fraction(done: f64, all: f64) -> f32 {
+    (done / all) as f32
+}
+
 /// Kinks between grid points: each needs steps of a length of its own.
 fn crossings(pieces: &[Segment]) -> usize {
     pieces.iter().flat_map(Segment::stops).filter(|(index, _)| index.is_none()).count()
@@ -208,7 +214,9 @@ fn exponential<'a>(
     let (joint, mut count) = (evaluator.joint, 0_usize);
     let mut sample = |index: usize, inside: f64, w: &DVector<f64>| {
         count += 1;
-        if count.is_multiple_of(BETWEEN_LOOKS) && !watch.go_on(index as f32 / grid.len() as f32, STEP) {
+        if count.is_multiple_of(BETWEEN_LOOKS)
+            && !watch.go_on(fraction(index as f64, grid.len() as f64), STEP)
+        {
             record.stop(SimulationError::Cancelled);
             return false;
         }
@@ -238,7 +246,7 @@ fn recursion<'a>(
 ) -> Work {
     let (mut w, mut steps) = (start, 0);
     for (k, t) in grid.iter().copied().enumerate() {
-        if k % BETWEEN_LOOKS == BETWEEN_LOOKS - 1 && !watch.go_on(k as f32 / grid.len() as f32, STEP) {
+        if k % BETWEEN_LOOKS == BETWEEN_LOOKS - 1 && !watch.go_on(fraction(t, grid.len() as f64), STEP) {
             record.stop(SimulationError::Cancelled);
             break;
         }

@@ -201,7 +201,7 @@ impl LipschitzTerm {
                     found.meet(ratio, || LargestRatio { t: *t, x: x.clone(), other: None, direction });
                 }
             }
-            let other = &points[(random.bits() % points.len() as u64) as usize].1;
+            let other = &points[usize::try_from(random.bits() % points.len() as u64).unwrap_or(k)].1;
             if let Some(ratio) = gauge.pair(*t, x, other) {
                 found.pairs += 1;
                 let direction = other - x;
@@ -228,9 +228,7 @@ fn points(region: &SampleRegion, samples: usize, random: &mut Random) -> Vec<(f6
         SampleRegion::Box { lower, upper, time } => {
             let mut draw = |from: f64, to: f64| from + (to - from) * random.uniform();
             let mut all = vec![(0.5 * (time.0 + time.1), (lower + upper) * 0.5)];
-            all.extend(
-                (1..samples).map(|_| (draw(time.0, time.1), lower.zip_map(upper, |from, to| draw(from, to)))),
-            );
+            all.extend((1..samples).map(|_| (draw(time.0, time.1), lower.zip_map(upper, &mut draw))));
             all
         }
     }

@@ -23,7 +23,7 @@ pub(super) fn show(
         return;
     }
     CollapsingHeader::new("Examine a given observer")
-        .id_salt("audit")
+        .id_salt(("audit", design.lmi.given.is_some()))
         .default_open(design.lmi.given.is_some())
         .show_unindented(ui, |ui| match &design.lmi.given {
             None => {

@@ -21,7 +21,7 @@ pub(super) fn show(
     let PlantData::Descriptor(data) = &session.document().plant else { return };
     let title = if data.lipschitz.is_some() { "Nonlinearity G f(x)" } else { "Nonlinearity: none" };
     CollapsingHeader::new(RichText::new(title).strong())
-        .id_salt("lipschitz")
+        .id_salt(("lipschitz", data.lipschitz.is_some()))
         .default_open(data.lipschitz.is_some())
         .show_unindented(ui, |ui| match &data.lipschitz {
             None => {

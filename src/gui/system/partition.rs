@@ -16,7 +16,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, data: &DescriptorData, out: &
         count => format!("Subsystems: {count}"),
     };
     CollapsingHeader::new(RichText::new(title).strong())
-        .id_salt("partition")
+        .id_salt(("partition", partition.is_empty()))
         .default_open(!partition.is_empty())
         .show_unindented(ui, |ui| {
             if partition.is_empty() {

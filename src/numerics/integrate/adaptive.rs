@@ -49,7 +49,7 @@ pub enum Ending {
 /// One-step methods with error control: steps end at kinks, and start afresh after jumps.
 ///
 /// Explicit steps of order 5 (Dormand and Prince) as long as the solution limits them. Where a fast mode seems to,
-/// linearly implicit ones of order 5 (Rodas5P) are tried, and keep the run when they are so much longer that they pay.
+/// linearly implicit ones of order 5 (`Rodas5P`) are tried, and keep the run when they are so much longer that they pay.
 /// Neither has a memory of earlier steps, so that a kink costs nothing but the end of a step.
 #[derive(Clone, Debug)]
 pub struct Integrator {

@@ -1,4 +1,4 @@
-//! One linearly implicit step of order 5 (Rodas5P), for stiff equations.
+//! One linearly implicit step of order 5 (`Rodas5P`), for stiff equations.
 
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
@@ -118,7 +118,7 @@ const NEAR: f64 = 0.02;
 /// Weights of the five points.
 const FORWARD: [f64; 5] = [-25.0 / 12.0, 4.0, -3.0, 4.0 / 3.0, -0.25];
 
-/// Stages of Rodas5P: order 5 with an error estimate of order 4, L-stable, without iteration.
+/// Stages of `Rodas5P`: order 5 with an error estimate of order 4, L-stable, without iteration.
 ///
 /// ```text
 /// (I / (h gamma) - J) k_i = F(t + alpha_i h, w + sum_j a_ij k_j) + sum_j c_ij k_j / h + h gamma_i dF/dt
@@ -128,7 +128,7 @@ const FORWARD: [f64; 5] = [-25.0 / 12.0, 4.0, -3.0, 4.0 / 3.0, -0.25];
 /// Stages six to eight lie at the end of the step, so that states which follow their input at once do so here.
 ///
 /// # Source
-/// G. Steinebach, Construction of Rosenbrock-Wanner method Rodas5P and numerical benchmarks within the Julia
+/// G. Steinebach, Construction of Rosenbrock-Wanner method `Rodas5P` and numerical benchmarks within the Julia
 /// Differential Equations package, BIT Numerical Mathematics 63, 2023.
 #[derive(Clone, Debug)]
 pub(super) struct Implicit {

@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 
 use super::certificate::{self, Judged};
 use super::inequality::{Demands, Inequality};
-use super::nearest::nearest;
+use super::nearest::{Cancelled, nearest};
 use super::{LocalMatrices, LocalProblem, Setup, SetupError};
 use crate::lmi::{self, Infeasible, Outcome, Settings, Stop};
 use crate::numerics::{NumericsError, Tolerance, Watch, svd};
@@ -66,13 +66,11 @@ pub fn design_local(
         Err(Stop::Cancelled) => Outcome::Cancelled,
         Err(Stop::GaveUp(why)) => Outcome::GaveUp(format!("subsystem {}: {why}", problem.name)),
         Err(Stop::Infeasible { block, source, margin }) => match nearest(&setup, &demands, &settings) {
-            Some(nearest) => Outcome::Infeasible(Infeasible {
-                block: format!("{block} ({})", problem.name),
-                source,
-                margin,
-                nearest,
-            }),
-            None => Outcome::Cancelled,
+            Ok(nearest) => {
+                let block = format!("{block} ({})", problem.name);
+                Outcome::Infeasible(Infeasible { block, source, margin, nearest })
+            }
+            Err(Cancelled) => Outcome::Cancelled,
         },
     })
 }

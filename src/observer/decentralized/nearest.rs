@@ -7,8 +7,19 @@ use crate::lmi::{self, Nearest, Settings, Stop};
 /// Relative distance from the boundary at which a nearest demand is reported, so that it can be reached.
 const INSIDE: f64 = 1e-3;
 
-/// The nearest feasible gamma, decay and gain bound; `None` when it was cancelled.
-pub(super) fn nearest(setup: &Setup, demands: &Demands, settings: &Settings) -> Option<Vec<Nearest>> {
+/// Somebody no longer wanted it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cancelled;
+
+/// The nearest feasible gamma, decay and gain bound, of those that are demanded and that alone make the rest feasible.
+///
+/// # Errors
+/// [`Cancelled`].
+pub(super) fn nearest(
+    setup: &Setup,
+    demands: &Demands,
+    settings: &Settings,
+) -> Result<Vec<Nearest>, Cancelled> {
     let search = Search { setup, settings };
     let mut result = Vec::new();
     let mut add = |quantity: &str, asked: Option<f64>, feasible: Option<f64>| {
@@ -19,7 +30,7 @@ pub(super) fn nearest(setup: &Setup, demands: &Demands, settings: &Settings) -> 
     add("gamma", demands.gamma, search.gamma(demands)?);
     add("decay rate", demands.decay, search.decay(demands)?);
     add("gain bound", demands.gain, search.gain(demands)?);
-    Some(result)
+    Ok(result)
 }
 
 struct Search<'a> {
@@ -28,35 +39,35 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Whether the demands have a solution; `None` when it was cancelled.
-    fn possible(&self, demands: &Demands) -> Option<bool> {
+    /// Whether the demands have a solution.
+    fn possible(&self, demands: &Demands) -> Result<bool, Cancelled> {
         match lmi::feasible(&Inequality::new(self.setup, demands).problem, self.settings) {
-            Ok(_) => Some(true),
-            Err(Stop::Cancelled) => None,
-            Err(Stop::Infeasible { .. } | Stop::GaveUp(_)) => Some(false),
+            Ok(_) => Ok(true),
+            Err(Stop::Cancelled) => Err(Cancelled),
+            Err(Stop::Infeasible { .. } | Stop::GaveUp(_)) => Ok(false),
         }
     }
 
     /// The least gamma with the other demands as they are.
-    fn gamma(&self, demands: &Demands) -> Option<Option<f64>> {
+    fn gamma(&self, demands: &Demands) -> Result<Option<f64>, Cancelled> {
         if demands.gamma.is_none() || !self.setup.is_driven() {
-            return Some(None);
+            return Ok(None);
         }
         let free = Inequality::new(self.setup, &Demands { gamma: None, ..*demands });
         match lmi::optimum(&free.problem, &free.gamma, self.settings) {
-            Ok(found) => Some(found.optimum.map(|scaled| free.attenuation_at(scaled) * (1.0 + INSIDE))),
-            Err(Stop::Cancelled) => None,
-            Err(Stop::Infeasible { .. } | Stop::GaveUp(_)) => Some(None),
+            Ok(found) => Ok(found.optimum.map(|scaled| free.attenuation_at(scaled) * (1.0 + INSIDE))),
+            Err(Stop::Cancelled) => Err(Cancelled),
+            Err(Stop::Infeasible { .. } | Stop::GaveUp(_)) => Ok(None),
         }
     }
 
     /// The fastest decay with the other demands as they are, by bisection between it and mere stability.
-    fn decay(&self, demands: &Demands) -> Option<Option<f64>> {
-        let Some(asked) = demands.decay else { return Some(None) };
+    fn decay(&self, demands: &Demands) -> Result<Option<f64>, Cancelled> {
+        let Some(asked) = demands.decay else { return Ok(None) };
         let slowest = if self.setup.problem.is_discrete() { 1.0 } else { 0.0 };
         let at = |decay| Demands { decay: Some(decay), ..*demands };
         if !self.possible(&at(slowest))? {
-            return Some(None);
+            return Ok(None);
         }
         const STEPS: usize = 14;
         let (mut good, mut bad) = (slowest, asked);
@@ -71,12 +82,12 @@ impl Search<'_> {
                 break;
             }
         }
-        Some(Some(good))
+        Ok(Some(good))
     }
 
     /// A gain bound that suffices with the other demands as they are, to ten per cent.
-    fn gain(&self, demands: &Demands) -> Option<Option<f64>> {
-        let Some(asked) = demands.gain else { return Some(None) };
+    fn gain(&self, demands: &Demands) -> Result<Option<f64>, Cancelled> {
+        let Some(asked) = demands.gain else { return Ok(None) };
         let at = |gain| Demands { gain: Some(gain), ..*demands };
         const DECADES: i32 = 4;
         let mut enough = None;
@@ -87,7 +98,7 @@ impl Search<'_> {
                 break;
             }
         }
-        let Some(mut good) = enough else { return Some(None) };
+        let Some(mut good) = enough else { return Ok(None) };
         let mut bad = 0.1 * good;
         while good > 1.1 * bad {
             let middle = (good * bad).sqrt();
@@ -97,6 +108,6 @@ impl Search<'_> {
                 bad = middle;
             }
         }
-        Some(Some(good))
+        Ok(Some(good))
     }
 }

@@ -158,7 +158,7 @@ fn cut(system: &DescriptorSystem, place: &Place<'_>) -> LocalProblem {
 }
 
 impl LocalProblem {
-    /// Number of its states n_i.
+    /// Number of its states.
     pub fn n_states(&self) -> usize {
         self.E.ncols()
     }

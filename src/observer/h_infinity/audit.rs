@@ -46,7 +46,7 @@ pub(super) fn audit(
     let back_off = BACK_OFF.min(choice.lmi.back_off);
     let solved = solve(plant, &fixed, &demands, &settings(choice, back_off, watch))
         .map_err(|stop| not_guaranteed(&observer, stop))?;
-    let mut design = finish(plant, family, choice, Solved { Z, ..solved }, tolerance)?;
+    let mut design = finish(plant, family, choice, &Solved { Z, ..solved }, tolerance)?;
     design.title = format!("examined observer ({})", observer.N.nrows());
     let mut notes = vec![format!(
         "the given N and J are a relative distance {distance:.1e} from an observer that satisfies the design equations; \

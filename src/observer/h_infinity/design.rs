@@ -68,7 +68,7 @@ pub fn design(
         }
         Err(stop) => return Err(stopped(stop)),
     };
-    finish(&plant, &family, choice, solved, tolerance)
+    finish(&plant, &family, choice, &solved, tolerance)
 }
 
 /// The demands of a choice, each of which is a positive number.

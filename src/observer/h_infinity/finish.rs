@@ -38,16 +38,16 @@ pub(super) fn finish(
     plant: &Plant,
     family: &Parameterisation,
     choice: &DesignChoice,
-    solved: Solved,
+    solved: &Solved,
     tolerance: &Tolerance,
 ) -> Result<Design, DesignError> {
     let matrices = family.recover(plant, &solved.Z);
-    let certificate = certify(plant, &matrices, &candidate(&solved));
-    let result = judged(plant, family, &matrices, &solved, certificate, tolerance)?;
+    let certificate = certify(plant, &matrices, &candidate(solved));
+    let result = judged(plant, family, &matrices, solved, certificate, tolerance)?;
     let (observer, injection, claim) = realize(plant, &matrices);
     let spectrum = eigenvalues(&matrices.N)?;
     let mut verification = verify(&plant.system, &observer, &claim, &spectrum, tolerance)?;
-    add_checks(&mut verification, &result, &solved);
+    add_checks(&mut verification, &result, solved);
     let mut notes = Vec::new();
     if !result.certificate.proved {
         notes.push(result.certificate.note.clone());
@@ -82,7 +82,7 @@ fn order_in_words(choice: &DesignChoice) -> &'static str {
 }
 
 /// What is to be proved of a solution.
-pub(super) fn candidate(solved: &Solved) -> Candidate {
+fn candidate(solved: &Solved) -> Candidate {
     let gamma = solved.gamma.unwrap_or(0.0);
     Candidate { X: solved.X.clone(), mu: solved.mu, gamma, decay: solved.decay }
 }

@@ -29,7 +29,7 @@ pub struct Posed {
     pub problem: Problem,
     /// The Lyapunov matrix, the paper's X1.
     pub X: Expr,
-    /// `X Z`, the transpose of the paper's Omega_X1.
+    /// `X Z`, the transpose of the paper's `Omega_X1`.
     pub W: Expr,
     /// The multiplier of the Lipschitz bound.
     pub mu: Expr,

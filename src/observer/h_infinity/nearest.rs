@@ -67,25 +67,6 @@ impl Search<'_> {
         }
     }
 
-    /// Bisection between a value that holds and one that does not, both included in what is asked of `at`.
-    fn between(
-        &self,
-        good: f64,
-        bad: f64,
-        holds: impl Fn(f64, f32) -> Result<bool, Stop>,
-    ) -> Result<f64, Stop> {
-        let (mut good, mut bad) = (good, bad);
-        for step in 0..STEPS {
-            let middle = 0.5 * (good + bad);
-            if holds(middle, f32::from(step) / f32::from(STEPS))? {
-                good = middle;
-            } else {
-                bad = middle;
-            }
-        }
-        Ok(good)
-    }
-
     /// The least attenuation, a step back from it.
     fn gamma(&self, demands: &Demands) -> Result<Option<f64>, Stop> {
         let posed = pose(self.plant, self.family, &Demands { gamma: None, ..*demands });
@@ -103,7 +84,7 @@ impl Search<'_> {
             return Ok(None);
         }
         let holds = |alpha, done| self.holds(self.plant, &Demands { decay: Some(alpha), ..*demands }, done);
-        let found = self.between(0.0, asked, holds)?;
+        let found = between(0.0, asked, holds)?;
         Ok((found > 0.0).then_some(found))
     }
 
@@ -114,7 +95,7 @@ impl Search<'_> {
         if !holds(LEAST_PART * asked, 0.0)? {
             return Ok(None);
         }
-        self.between(LEAST_PART * asked, asked, holds).map(Some)
+        between(LEAST_PART * asked, asked, holds).map(Some)
     }
 
     /// The smallest gain bound; `None` when no gain helps.
@@ -126,6 +107,20 @@ impl Search<'_> {
         if !holds(largest, 0.0)? {
             return Ok(None);
         }
-        Ok(Some(10.0_f64.powf(self.between(largest, asked.log10(), holds)?)))
+        Ok(Some(10.0_f64.powf(between(largest, asked.log10(), holds)?)))
     }
+}
+
+/// Bisection between a value that holds and one that does not; `holds` hears how much of it is done.
+fn between(good: f64, bad: f64, holds: impl Fn(f64, f32) -> Result<bool, Stop>) -> Result<f64, Stop> {
+    let (mut good, mut bad) = (good, bad);
+    for step in 0..STEPS {
+        let middle = 0.5 * (good + bad);
+        if holds(middle, f32::from(step) / f32::from(STEPS))? {
+            good = middle;
+        } else {
+            bad = middle;
+        }
+    }
+    Ok(good)
 }

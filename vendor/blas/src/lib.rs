@@ -1,139 +1,140 @@
-//! Same signatures as blas 0.22 for the five routines clarabel's `sdp` feature uses, f32 and f64.
-#![allow(clippy::too_many_arguments)]
-macro_rules! blas {
-    ($t:ty, $gemm:ident, $gemv:ident, $symv:ident, $syrk:ident, $syr2k:ident) => {
+//! The routines of the crate `blas` 0.22 that clarabel's semidefinite cones call, in safe Rust.
+//!
+//! Names, arguments and layout are those of BLAS (column-major, `N` or `T`, `U` or `L`), because this crate takes the
+//! place of that one; what is computed is in `dense-kernels`. Vectors must be contiguous: clarabel has no others.
+//!
+//! All routines panic when a slice is shorter than its shape says: a mistake of the caller, never of numbers.
+
+#![expect(clippy::too_many_arguments, reason = "the signatures are those of BLAS")]
+
+use dense_kernels::{Triangle, matrix, matrix_mut, multiply, multiply_symmetric, multiply_triangle, size};
+
+fn transposed(code: u8) -> bool {
+    !code.eq_ignore_ascii_case(&b'N')
+}
+
+macro_rules! products {
+    ($real:ty, $gemm:ident, $gemv:ident, $symv:ident, $syrk:ident, $syr2k:ident) => {
+        /// `C = alpha op(A) op(B) + beta C`; `C` is `m x n`, the inner dimension `k`.
         pub fn $gemm(
-            ta: u8,
-            tb: u8,
+            transa: u8,
+            transb: u8,
             m: i32,
             n: i32,
             k: i32,
-            alpha: $t,
-            a: &[$t],
+            alpha: $real,
+            a: &[$real],
             lda: i32,
-            b: &[$t],
+            b: &[$real],
             ldb: i32,
-            beta: $t,
-            c: &mut [$t],
+            beta: $real,
+            c: &mut [$real],
             ldc: i32,
         ) {
-            dense_kernels::gemm(
-                ta == b'T',
-                tb == b'T',
-                m as usize,
-                n as usize,
-                k as usize,
-                alpha,
-                a,
-                lda as usize,
-                b,
-                ldb as usize,
-                beta,
-                c,
-                ldc as usize,
-            )
+            let (m, n, k) = (size(m), size(n), size(k));
+            let a = if transposed(transa) {
+                matrix(a, k, m, size(lda)).transpose()
+            } else {
+                matrix(a, m, k, size(lda))
+            };
+            let b = if transposed(transb) {
+                matrix(b, n, k, size(ldb)).transpose()
+            } else {
+                matrix(b, k, n, size(ldb))
+            };
+            multiply(matrix_mut(c, m, n, size(ldc)), a, b, alpha, beta);
         }
+
+        /// `y = alpha op(A) x + beta y`; `A` is `m x n`.
         pub fn $gemv(
-            t: u8,
+            trans: u8,
             m: i32,
             n: i32,
-            alpha: $t,
-            a: &[$t],
+            alpha: $real,
+            a: &[$real],
             lda: i32,
-            x: &[$t],
+            x: &[$real],
             incx: i32,
-            beta: $t,
-            y: &mut [$t],
+            beta: $real,
+            y: &mut [$real],
             incy: i32,
         ) {
-            assert!(incx == 1 && incy == 1);
-            let (r, k) = if t == b'T' { (n, m) } else { (m, n) };
-            dense_kernels::gemm(
-                t == b'T',
-                false,
-                r as usize,
-                1,
-                k as usize,
-                alpha,
-                a,
-                lda as usize,
-                x,
-                k as usize,
-                beta,
-                y,
-                r as usize,
-            )
+            assert!(incx == 1 && incy == 1, "vectors must be contiguous, not in steps of {incx} and {incy}");
+            let a = matrix(a, size(m), size(n), size(lda));
+            let a = if transposed(trans) { a.transpose() } else { a };
+            let (rows, inner) = (a.nrows(), a.ncols());
+            multiply(matrix_mut(y, rows, 1, rows), a, matrix(x, inner, 1, inner), alpha, beta);
         }
+
+        /// `y = alpha A x + beta y` for a symmetric `A` of which one half is given.
         pub fn $symv(
             uplo: u8,
             n: i32,
-            alpha: $t,
-            a: &[$t],
+            alpha: $real,
+            a: &[$real],
             lda: i32,
-            x: &[$t],
+            x: &[$real],
             incx: i32,
-            beta: $t,
-            y: &mut [$t],
+            beta: $real,
+            y: &mut [$real],
             incy: i32,
         ) {
-            assert!(incx == 1 && incy == 1);
-            dense_kernels::symv(uplo == b'U', n as usize, alpha, a, lda as usize, x, beta, y)
+            assert!(incx == 1 && incy == 1, "vectors must be contiguous, not in steps of {incx} and {incy}");
+            let n = size(n);
+            let factors = (matrix(a, n, n, size(lda)), matrix(x, n, 1, n));
+            multiply_symmetric(Triangle::from_code(uplo), matrix_mut(y, n, 1, n), factors, alpha, beta);
         }
+
+        /// One half of `C = alpha op(A) op(A)' + beta C`; `C` is `n x n`, the inner dimension `k`.
         pub fn $syrk(
             uplo: u8,
-            t: u8,
+            trans: u8,
             n: i32,
             k: i32,
-            alpha: $t,
-            a: &[$t],
+            alpha: $real,
+            a: &[$real],
             lda: i32,
-            beta: $t,
-            c: &mut [$t],
+            beta: $real,
+            c: &mut [$real],
             ldc: i32,
         ) {
-            dense_kernels::syrk(
-                uplo == b'U',
-                t == b'T',
-                n as usize,
-                k as usize,
-                alpha,
-                a,
-                lda as usize,
-                beta,
-                c,
-                ldc as usize,
-            )
+            let (n, k) = (size(n), size(k));
+            let a = if transposed(trans) {
+                matrix(a, k, n, size(lda)).transpose()
+            } else {
+                matrix(a, n, k, size(lda))
+            };
+            let half = Triangle::from_code(uplo);
+            multiply_triangle(half, matrix_mut(c, n, n, size(ldc)), (a, a.transpose()), alpha, beta);
         }
+
+        /// One half of `C = alpha (op(A) op(B)' + op(B) op(A)') + beta C`; `C` is `n x n`, the inner dimension `k`.
         pub fn $syr2k(
             uplo: u8,
-            t: u8,
+            trans: u8,
             n: i32,
             k: i32,
-            alpha: $t,
-            a: &[$t],
+            alpha: $real,
+            a: &[$real],
             lda: i32,
-            b: &[$t],
+            b: &[$real],
             ldb: i32,
-            beta: $t,
-            c: &mut [$t],
+            beta: $real,
+            c: &mut [$real],
             ldc: i32,
         ) {
-            dense_kernels::syr2k(
-                uplo == b'U',
-                t == b'T',
-                n as usize,
-                k as usize,
-                alpha,
-                a,
-                lda as usize,
-                b,
-                ldb as usize,
-                beta,
-                c,
-                ldc as usize,
-            )
+            let (n, k) = (size(n), size(k));
+            let (a, b) = if transposed(trans) {
+                (matrix(a, k, n, size(lda)).transpose(), matrix(b, k, n, size(ldb)).transpose())
+            } else {
+                (matrix(a, n, k, size(lda)), matrix(b, n, k, size(ldb)))
+            };
+            let half = Triangle::from_code(uplo);
+            multiply_triangle(half, matrix_mut(c, n, n, size(ldc)), (a, b.transpose()), alpha, beta);
+            multiply_triangle(half, matrix_mut(c, n, n, size(ldc)), (b, a.transpose()), alpha, 1.0);
         }
     };
 }
-blas!(f32, sgemm, sgemv, ssymv, ssyrk, ssyr2k);
-blas!(f64, dgemm, dgemv, dsymv, dsyrk, dsyr2k);
+
+products!(f32, sgemm, sgemv, ssymv, ssyrk, ssyr2k);
+products!(f64, dgemm, dgemv, dsymv, dsyrk, dsyr2k);
