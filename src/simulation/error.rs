@@ -18,6 +18,27 @@ pub enum SimulationError {
         /// Columns of `E`.
         states: usize,
     },
+    /// Algebraic equations that contain nothing they could determine.
+    #[error(
+        "{combinations} of the {algebraic} algebraic equations (as combinations) contain neither algebraic states nor \
+         unknown inputs: they tie the differential states to the known inputs, both of which are given. At t = 0 they are \
+         violated by {residual:.3e}. Remove equations that repeat others, or add the states or unknown inputs that they \
+         determine"
+    )]
+    Overdetermined {
+        /// Independent combinations without algebraic states and unknown inputs.
+        combinations: usize,
+        /// Number of algebraic equations.
+        algebraic: usize,
+        /// Largest entry of what is left of them at the start.
+        residual: f64,
+    },
+    /// A feedback that leaves the free variables undetermined.
+    #[error(
+        "the feedback of the free variables cancels them: with v = v0 - K x the algebraic equations determine the states no \
+         longer. Let K act on the differential states, or change it"
+    )]
+    FreeFeedback,
     /// The algebraic equations do not determine the algebraic states.
     #[error(
         "the plant is not of index 1: its {algebraic} algebraic equations do not determine as many states \

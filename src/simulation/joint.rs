@@ -8,6 +8,7 @@ use super::run::LARGEST_STATE;
 use super::{Observed, Plant, SimulationError};
 use crate::numerics::integrate::Signals;
 use crate::observer::{Injection, LinearObserver};
+use crate::system::DescriptorSystem;
 
 /// Everything that drives plant and observers from outside.
 #[derive(Clone, Copy)]
@@ -62,7 +63,7 @@ impl<'a> Joint<'a> {
         inputs: Inputs<'a>,
     ) -> Result<Self, SimulationError> {
         for (i, observed) in observers.iter().enumerate() {
-            check(i, observed.observer, plant)?;
+            check(i, observed.observer, plant.system())?;
             if let Some(injection) = observed.injection {
                 check_injection(i, injection, observed.observer.order(), plant)?;
             }
@@ -183,8 +184,11 @@ impl<'a> Joint<'a> {
 }
 
 /// Checks the nine shapes of an observer against its plant.
-fn check(i: usize, observer: &LinearObserver, plant: &Plant) -> Result<(), SimulationError> {
-    let system = plant.system();
+pub(super) fn check(
+    i: usize,
+    observer: &LinearObserver,
+    system: &DescriptorSystem,
+) -> Result<(), SimulationError> {
     let (n, p, k) = (system.n_states(), system.n_outputs(), system.n_inputs());
     let o = observer.order();
     let q = if observer.n_estimated_inputs() == 0 { 0 } else { system.n_unknown_inputs() };

@@ -18,6 +18,8 @@ mod scenario;
 mod singularity;
 mod trajectory;
 mod uncertainty;
+mod wide;
+mod wide_run;
 
 pub use crate::numerics::integrate::{Signals, Silence};
 pub use error::SimulationError;
@@ -28,3 +30,4 @@ pub use run::{LARGEST_STATE, MOST_SAMPLES, MOST_STATES, Span, simulate, simulate
 pub use scenario::Scenario;
 pub use trajectory::{Method, ObserverTrajectory, Trajectory, rms};
 pub use uncertainty::Uncertainty;
+pub use wide::{FreeVariables, WidePlant};

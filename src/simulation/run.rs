@@ -165,7 +165,7 @@ fn check_states(
     Ok(())
 }
 
-fn check_vector(what: &str, vector: &[f64], needed: usize) -> Result<(), SimulationError> {
+pub(super) fn check_vector(what: &str, vector: &[f64], needed: usize) -> Result<(), SimulationError> {
     if vector.len() != needed {
         return Err(SimulationError::Shape {
             what: what.to_owned(),

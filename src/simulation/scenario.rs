@@ -2,7 +2,10 @@
 
 use nalgebra::DVector;
 
-use super::{Inputs, Observed, Plant, SimulationError, Span, Trajectory, Uncertainty, simulate_observed};
+use super::{
+    FreeVariables, Inputs, Observed, Plant, SimulationError, Span, Trajectory, Uncertainty,
+    simulate_observed, wide_run,
+};
 use crate::expression::MAX_JUMPS;
 use crate::numerics::{Tolerance, Watch};
 use crate::observer::LinearObserver;
@@ -32,12 +35,48 @@ pub struct Scenario {
 impl Scenario {
     /// Simulates the plant with the observers beside it; `watch` can cancel it.
     ///
+    /// Free variables of a plant with fewer equations than states stay zero; see [`Self::run_free`].
+    ///
     /// # Errors
-    /// As [`simulate_observed`].
+    /// As [`simulate_observed`] and [`Self::run_free`].
     pub fn run(
         &self,
         model: &Model,
         observers: &[Observed<'_>],
+        tolerance: &Tolerance,
+        watch: &Watch,
+    ) -> Result<Trajectory, SimulationError> {
+        self.run_free(model, observers, &FreeVariables::default(), tolerance, watch)
+    }
+
+    /// Simulates a plant of any shape: what its equations leave free follows `free`.
+    ///
+    /// A plant with as many equations as states has to be of index 1 and has no free variables; any other is completed
+    /// as [`WidePlant`](super::WidePlant) says. What is free and what is corrected stands in the trajectory's remarks.
+    ///
+    /// # Errors
+    /// As [`simulate_observed`]; [`SimulationError::Overdetermined`] for equations that contradict what is given.
+    pub fn run_free(
+        &self,
+        model: &Model,
+        observers: &[Observed<'_>],
+        free: &FreeVariables,
+        tolerance: &Tolerance,
+        watch: &Watch,
+    ) -> Result<Trajectory, SimulationError> {
+        if model.system.E.is_square() {
+            let given = model.system.n_unknown_inputs();
+            return self.run_with(model, observers, (given, &[]), tolerance, watch);
+        }
+        wide_run::run(self, model, observers, free, tolerance, watch)
+    }
+
+    /// Simulates a square plant whose unknown inputs are `given` signals of the scenario and, behind them, `more`.
+    pub(super) fn run_with(
+        &self,
+        model: &Model,
+        observers: &[Observed<'_>],
+        (given, more): (usize, &[Signal]),
         tolerance: &Tolerance,
         watch: &Watch,
     ) -> Result<Trajectory, SimulationError> {
@@ -48,12 +87,17 @@ impl Scenario {
             observers.iter().zip(&starts).map(|(observer, z0)| (*observer, z0.as_slice())).collect();
         let (mut jumps, mut kinks) = (Vec::new(), Vec::new());
         if model.system.time == TimeDomain::Continuous {
-            jumps = self.jumps(model.lipschitz.as_ref())?;
-            kinks = self.kinks(model.lipschitz.as_ref());
+            jumps = self.jumps(more, model.lipschitz.as_ref())?;
+            kinks = self.kinks(more, model.lipschitz.as_ref());
         }
+        let unknown = |t: f64, out: &mut [f64]| {
+            let (first, rest) = out.split_at_mut(given.min(out.len()));
+            values(&self.d, t, first);
+            values(more, t, rest);
+        };
         let inputs = Inputs {
             known: &|t: f64, out: &mut [f64]| values(&self.u, t, out),
-            unknown: &|t: f64, out: &mut [f64]| values(&self.d, t, out),
+            unknown: &unknown,
             noise: &|t: f64, out: &mut [f64]| values(&self.noise, t, out),
             jumps: &jumps,
             kinks: &kinks,
@@ -77,8 +121,8 @@ impl Scenario {
     }
 
     /// All instants at which a signal, or the nonlinearity in time alone, jumps, sorted.
-    fn jumps(&self, term: Option<&LipschitzTerm>) -> Result<Vec<f64>, SimulationError> {
-        let signals = self.signals().map(|signal| (signal.text(), signal.jumps(0.0, self.horizon)));
+    fn jumps(&self, more: &[Signal], term: Option<&LipschitzTerm>) -> Result<Vec<f64>, SimulationError> {
+        let signals = self.signals(more).map(|signal| (signal.text(), signal.jumps(0.0, self.horizon)));
         let nonlinear = term.into_iter().flat_map(|term| &term.f);
         let nonlinear = nonlinear.map(|f| (f.text(), f.jumps(0.0, self.horizon)));
         let mut jumps = Vec::new();
@@ -92,14 +136,14 @@ impl Scenario {
     }
 
     /// All instants at which a signal, or the nonlinearity in time alone, is not smooth, sorted.
-    fn kinks(&self, term: Option<&LipschitzTerm>) -> Vec<f64> {
-        let signals = self.signals().flat_map(|signal| signal.kinks(0.0, self.horizon));
+    fn kinks(&self, more: &[Signal], term: Option<&LipschitzTerm>) -> Vec<f64> {
+        let signals = self.signals(more).flat_map(|signal| signal.kinks(0.0, self.horizon));
         let nonlinear = term.into_iter().flat_map(|term| &term.f);
         sorted(signals.chain(nonlinear.flat_map(|f| f.kinks(0.0, self.horizon))).collect())
     }
 
-    fn signals(&self) -> impl Iterator<Item = &Signal> {
-        self.u.iter().chain(&self.d).chain(&self.noise)
+    fn signals<'a>(&'a self, more: &'a [Signal]) -> impl Iterator<Item = &'a Signal> {
+        self.u.iter().chain(&self.d).chain(&self.noise).chain(more)
     }
 }
 
@@ -109,7 +153,8 @@ fn sorted(mut instants: Vec<f64>) -> Vec<f64> {
     instants
 }
 
-fn values(signals: &[Signal], t: f64, out: &mut [f64]) {
+/// Writes the values of signals; zero where there is none.
+pub(super) fn values(signals: &[Signal], t: f64, out: &mut [f64]) {
     for (i, value) in out.iter_mut().enumerate() {
         *value = signals.get(i).map_or(0.0, |signal| signal.value(t));
     }

@@ -26,6 +26,7 @@ mod reduced_order;
 
 use nalgebra::DMatrix;
 
+pub(super) use conditions::{advise_units, single_sensors};
 pub use conditions::{conditions, ordinary_conditions};
 pub use equivalent::{Alternative, Equivalent, choose_alternative, compressed, unchanged};
 pub use full_order::left_inverse;
@@ -67,15 +68,18 @@ fn augmented(
 }
 
 /// What a person asks of the spectrum.
-struct PoleRequest<'a> {
-    choice: &'a DesignChoice,
-    discrete: bool,
-    tolerance: &'a Tolerance,
+pub(super) struct PoleRequest<'a> {
+    /// The design that was chosen, with its poles.
+    pub(super) choice: &'a DesignChoice,
+    /// Whether the poles are those of difference equations.
+    pub(super) discrete: bool,
+    /// Thresholds of the fixed modes.
+    pub(super) tolerance: &'a Tolerance,
 }
 
 impl PoleRequest<'_> {
     /// Places the first poles of the list on the observable part of the pair.
-    fn place(&self, A: &DMatrix<f64>, C: &DMatrix<f64>) -> Result<Placement, DesignError> {
+    pub(super) fn place(&self, A: &DMatrix<f64>, C: &DMatrix<f64>) -> Result<Placement, DesignError> {
         let free = observable_quotient(A, C, self.tolerance)?.basis.ncols();
         let poles = chosen_poles(&self.choice.poles, self.choice.scale, self.discrete, free)?;
         let options = PlacementOptions { seed: self.choice.seed, ..PlacementOptions::default() };
@@ -195,7 +199,7 @@ pub(super) fn finish(
 }
 
 /// What a user should know of a placement.
-fn notes(choice: &DesignChoice, placement: &Placement, time: TimeDomain) -> Vec<String> {
+pub(super) fn notes(choice: &DesignChoice, placement: &Placement, time: TimeDomain) -> Vec<String> {
     let mut notes: Vec<String> = placement.warnings.iter().map(ToString::to_string).collect();
     let (given, used) = (choice.poles.len(), placement.requested.len());
     if given > used {

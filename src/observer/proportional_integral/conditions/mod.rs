@@ -5,6 +5,8 @@ mod pairs;
 mod ranks;
 mod sensors;
 
+pub(in crate::observer) use sensors::single_sensors;
+
 use super::{compressed, restricted};
 use crate::numerics::{RankDecision, Tolerance};
 use crate::observer::{Condition, Evidence, Formula, Order, Verdict};
@@ -66,7 +68,7 @@ pub fn conditions(
 const USUAL_SPAN: f64 = 7.0;
 
 /// Where a condition does not clearly hold and the entries span many decades, proposes other units.
-fn advise_units(system: &DescriptorSystem, conditions: &mut [Condition]) {
+pub(in crate::observer) fn advise_units(system: &DescriptorSystem, conditions: &mut [Condition]) {
     let entries = system.matrices().into_iter().flat_map(|(_, matrix)| matrix.iter());
     let sizes = entries.filter(|x| **x != 0.0).map(|x| x.abs().log10());
     let (low, high) =

@@ -11,27 +11,35 @@ use crate::system::DescriptorSystem;
 use crate::system::properties::PropertyError;
 
 impl Ask<'_> {
-    /// States whose measurement alone would make a condition hold, as sentences.
+    /// As [`single_sensors`] for the system that is asked about.
     pub(super) fn sensors(
         &self,
         holds: impl Fn(&DescriptorSystem) -> Result<bool, PropertyError>,
     ) -> Result<Vec<String>, PropertyError> {
-        const LARGEST: usize = 16;
-        let n = self.system.n_states();
-        if n > LARGEST {
-            return Ok(Vec::new());
-        }
-        let mut remedies = Vec::new();
-        for i in 0..n {
-            if holds(&with_sensor(self.system, i))? {
-                remedies.push(format!("measure x{0}: add the row with a 1 in column {0} to C", i + 1));
-            }
-        }
-        if remedies.is_empty() {
-            remedies.push("no single additional sensor of one state restores it".to_owned());
-        }
-        Ok(remedies)
+        single_sensors(self.system, holds)
     }
+}
+
+/// States whose measurement alone would make a condition hold, as sentences.
+pub(in crate::observer) fn single_sensors(
+    system: &DescriptorSystem,
+    holds: impl Fn(&DescriptorSystem) -> Result<bool, PropertyError>,
+) -> Result<Vec<String>, PropertyError> {
+    const LARGEST: usize = 16;
+    let n = system.n_states();
+    if n > LARGEST {
+        return Ok(Vec::new());
+    }
+    let mut remedies = Vec::new();
+    for i in 0..n {
+        if holds(&with_sensor(system, i))? {
+            remedies.push(format!("measure x{0}: add the row with a 1 in column {0} to C", i + 1));
+        }
+    }
+    if remedies.is_empty() {
+        remedies.push("no single additional sensor of one state restores it".to_owned());
+    }
+    Ok(remedies)
 }
 
 /// The system with a further output that measures one state.

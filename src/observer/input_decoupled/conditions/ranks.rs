@@ -1,0 +1,147 @@
+//! Conditions on single ranks: (A1) and (A2).
+
+use nalgebra::{DMatrix, DVector};
+
+use super::{Ask, condition, evidence};
+use crate::numerics::Block::{Of, Zero};
+use crate::numerics::{Complex64, RankDecision, block_matrix, rank, stack, subspaces};
+use crate::observer::proportional_integral::single_sensors;
+use crate::observer::{Condition, Verdict, Witness};
+use crate::system::DescriptorSystem;
+use crate::system::properties::PropertyError;
+
+impl Ask<'_> {
+    /// (A1): no combination of the algebraic equations is free of algebraic states and unknown inputs.
+    pub(super) fn condition_a1(
+        &self,
+        needed: bool,
+        general_exists: bool,
+    ) -> Result<Condition, PropertyError> {
+        let DescriptorSystem { E, A, D, .. } = self.system;
+        let (e, n) = E.shape();
+        let (r, q) = (self.at.r(), self.system.n_unknown_inputs());
+        let decision = self.algebraic_rank()?;
+        let printed =
+            rank(&block_matrix(&[&[Zero, Of(E), Zero], &[Of(E), Of(A), Of(D)]]), 0.0, self.tolerance)?;
+        let required = self.n_algebraic();
+        let mut result = condition("(A1)", "impulse controllability", "rank [0 E 0; E A D] = m + r");
+        self.fill(&mut result, &decision, &printed, (required, e + r));
+        if !result.verdict.holds() {
+            let left = subspaces(&self.at.algebraic(), self.at.scale, self.tolerance)?.left_null;
+            result.witness = last_column(&(self.at.M2.transpose() * left)).map(|direction| Witness {
+                s: None,
+                direction,
+                coordinates: (1..=e).map(|i| format!("equation {i}")).collect(),
+            });
+            let excess = required - decision.rank;
+            result.summary = if e > n + q {
+                format!(
+                    "{}; it cannot hold with e = {e} equations for n + q = {} states and unknown inputs",
+                    result.summary,
+                    n + q
+                )
+            } else {
+                format!("{}; {excess} combinations of the equations tie x1 and u alone", result.summary)
+            };
+            if needed {
+                let remedy = if general_exists {
+                    "choose the general form, which does not need (A1): it exists for this system"
+                } else {
+                    "the general form does not need (A1), but its conditions (A2) and (A3) do not both hold either"
+                };
+                result.remedies.push(remedy.to_owned());
+            }
+        }
+        result.evidence = vec![
+            evidence("[U2'AV2 U2'D], on the null spaces of E", decision, required),
+            evidence("[0 E 0; E A D]", printed, e + r),
+        ];
+        result.needed = needed;
+        Ok(result)
+    }
+
+    /// (A2): algebraic equations and outputs together determine algebraic states and unknown inputs.
+    pub(super) fn condition_a2(&self) -> Result<Condition, PropertyError> {
+        let DescriptorSystem { E, A, C, D, F, .. } = self.system;
+        let (n, p, q, r) =
+            (self.system.n_states(), self.system.n_outputs(), self.system.n_unknown_inputs(), self.at.r());
+        let decision = self.joint_rank()?;
+        let blocks = block_matrix(&[&[Zero, Of(E), Zero], &[Of(E), Of(A), Of(D)], &[Zero, Of(C), Of(F)]]);
+        let printed = rank(&blocks, 0.0, self.tolerance)?;
+        let required = self.n_unknown();
+        let mut result = condition(
+            "(A2)",
+            "impulse observability of state and input",
+            "rank [0 E 0; E A D; 0 C F] = n + p + r",
+        );
+        self.fill(&mut result, &decision, &printed, (required, n + q + r));
+        if !result.verdict.holds() {
+            let joint = stack(&[&self.at.algebraic(), &self.at.measured()]);
+            let null = subspaces(&joint, self.at.scale, self.tolerance)?.null;
+            let x2 = self.at.N2.ncols();
+            let lifted = stack(&[&(&self.at.N2 * null.rows(0, x2)), &null.rows(x2, q).into_owned()]);
+            result.witness = last_column(&lifted).map(|direction| Witness {
+                s: None,
+                direction,
+                coordinates: self.coordinate_names(),
+            });
+            let algebraic = self.algebraic_rank()?.rank;
+            if p + algebraic < required {
+                result.remedies.push(format!(
+                    "at least {} outputs are needed, there are {p}: {required} algebraic states and unknown inputs, of \
+                     which the algebraic equations determine {algebraic}",
+                    required - algebraic
+                ));
+            }
+            result.remedies.extend(single_sensors(self.system, |extended| {
+                let ask = Ask::new(extended, self.tolerance)?;
+                Ok(ask.joint_rank()?.rank == ask.n_unknown())
+            })?);
+        }
+        result.evidence = vec![
+            evidence("[U2'AV2 U2'D; CV2 F], on the null spaces of E", decision, required),
+            evidence("[0 E 0; E A D; 0 C F]", printed, n + q + r),
+        ];
+        Ok(result)
+    }
+
+    /// Verdict and summary from the compressed rank, which decides, and the printed one beside it.
+    fn fill(
+        &self,
+        result: &mut Condition,
+        decision: &RankDecision,
+        printed: &RankDecision,
+        (required, printed_required): (usize, usize),
+    ) {
+        let holds = decision.rank == required;
+        let agree = holds == (printed.rank == printed_required);
+        result.verdict = Verdict::of(holds, decision.fragile || self.at.rank.fragile || !agree);
+        let equation = match (agree, holds) {
+            (true, true) => format!("{} = {printed_required}", printed.rank),
+            (true, false) => format!("{} < {printed_required}", printed.rank),
+            (false, _) => format!(
+                "the printed matrix has rank {} of {printed_required} within its threshold, the compressed one decides",
+                printed.rank
+            ),
+        };
+        result.summary = if required == 0 {
+            format!("{equation}; there is nothing to determine")
+        } else {
+            format!(
+                "{equation}; on the algebraic part: rank {} of {required} needed, smallest singular value {:.3e}",
+                decision.rank,
+                if decision.singular_values.len() < required { 0.0 } else { decision.smallest() }
+            )
+        };
+    }
+}
+
+/// The last column, which belongs to the smallest singular value, with one as its largest entry.
+fn last_column(directions: &DMatrix<f64>) -> Option<Vec<Complex64>> {
+    let last: DVector<f64> = directions.column(directions.ncols().checked_sub(1)?).into_owned();
+    if last.is_empty() {
+        return None;
+    }
+    let largest = last[last.icamax()];
+    Some(last.iter().map(|x| Complex64::from(x / largest)).collect())
+}

@@ -1,0 +1,191 @@
+//! Condition (A3): the invariant zeros are stable, decided at exact finite points.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::{Ask, condition};
+use crate::numerics::{Complex64, PbhMode, StabilityRegion, Tolerance, pbh_modes, side_by_side};
+use crate::observer::input_decoupled::{Coordinates, Reduction, general_reduction, paper_reduction};
+use crate::observer::proportional_integral::single_sensors;
+use crate::observer::{Condition, Evidence, PointEvidence, Verdict, Witness, show};
+use crate::system::properties::{ModeCondition, PropertyError, r_detectability};
+use crate::system::{DescriptorSystem, TimeDomain};
+
+impl Ask<'_> {
+    /// (A3), on the paper's pair, on the general pair, or without (A2) on the rectangular pencil itself.
+    ///
+    /// ```text
+    /// rank [A - s E, D; C, F] = (n - r + q) + rank [s I - A~1; Z' C_bar1]          given (A1), (A2)
+    /// ```
+    pub(super) fn condition_a3(
+        &self,
+        paper_pair: bool,
+        second_holds: bool,
+    ) -> Result<Condition, PropertyError> {
+        let formula = match self.system.time {
+            TimeDomain::Continuous => "rank [A-sE D; C F] = n + p for all Re s >= 0",
+            TimeDomain::Discrete => "rank [A-zE D; C F] = n + p for all |z| >= 1",
+        };
+        let mut result = condition("(A3)", "stable invariant zeros", formula);
+        if second_holds {
+            let (reduction, of) = if paper_pair {
+                (paper_reduction(&self.at, self.tolerance)?, "(A~1, Z'C_bar1)")
+            } else {
+                (general_reduction(&self.at, self.tolerance)?, "(A, C) of the general form")
+            };
+            self.fill_pair(&mut result, &reduction, of)?;
+        } else {
+            let found = r_detectability(&with_inputs_as_states(self.system), self.tolerance)?;
+            self.fill_pencil(&mut result, &found);
+        }
+        if !result.verdict.holds() {
+            result.remedies = single_sensors(self.system, |extended| stable_zeros(extended, self.tolerance))?;
+        }
+        Ok(result)
+    }
+
+    fn fill_pair(&self, result: &mut Condition, pair: &Reduction, of: &str) -> Result<(), PropertyError> {
+        let zeros = Zeros::of(self.system.time, pair, self.tolerance)?;
+        let bad = zeros.bad().next();
+        result.verdict = Verdict::of(bad.is_none(), zeros.near());
+        let hidden: Vec<&PbhMode> = zeros.modes.iter().filter(|m| m.unobservable).collect();
+        result.summary = match (bad, hidden.len()) {
+            (Some(zero), _) => {
+                let place = if zeros.region.contains(zero.value, -zeros.margin) {
+                    "on the boundary of stability, which counts as not stable"
+                } else {
+                    "not stable"
+                };
+                format!("the invariant zero {} is {place}", show(zero.value))
+            }
+            (None, 0) => {
+                let closest = zeros.modes.iter().map(|m| m.distance).fold(f64::INFINITY, f64::min);
+                if zeros.modes.is_empty() {
+                    "no invariant zeros: there are no dynamics".to_owned()
+                } else {
+                    format!("no invariant zeros: every pole can be placed (closest distance {closest:.2e})")
+                }
+            }
+            (None, _) => {
+                let listed: Vec<String> = hidden.iter().map(|m| show(m.value)).collect();
+                format!("invariant zeros {}, all stable: they stay in the error dynamics", listed.join(", "))
+            }
+        };
+        let points = zeros.modes.iter().map(|m| PointEvidence {
+            s: m.value,
+            multiplicity: m.multiplicity,
+            distance: m.distance,
+            loses_rank: m.unobservable,
+            stable: zeros.region.contains(m.value, zeros.margin),
+        });
+        result.evidence.push(Evidence::Points { of: of.to_owned(), points: points.collect() });
+        result.witness = bad.map(|zero| Witness {
+            s: Some(zero.value),
+            direction: lifted(&self.at, pair, &zero.direction),
+            coordinates: self.coordinate_names(),
+        });
+        Ok(())
+    }
+
+    /// Where (A2) fails there is no pair; the pencil still has exact finite points.
+    fn fill_pencil(&self, result: &mut Condition, found: &ModeCondition) {
+        result.verdict = Verdict::of(found.holds(), found.fragile());
+        let violation = found.violations().next();
+        let stable = |s| found.region.contains(s, found.margin);
+        result.summary = match (&found.free_direction, violation) {
+            (Some(_), _) => format!("rank {} < {} for every s", found.normal_rank, found.needed),
+            (None, Some(zero)) => format!("the invariant zero {} is not stable", show(zero.s)),
+            (None, None) => "every invariant zero is stable".to_owned(),
+        };
+        let direction = match (&found.free_direction, violation) {
+            (Some(free), _) => Some((None, free.iter().map(|x| (*x).into()).collect())),
+            (None, Some(zero)) => Some((Some(zero.s), zero.direction.clone())),
+            (None, None) => None,
+        };
+        result.witness =
+            direction.map(|(s, direction)| Witness { s, direction, coordinates: self.coordinate_names() });
+        let points = found.modes.iter().map(|zero| PointEvidence {
+            s: zero.s,
+            multiplicity: zero.multiplicity,
+            distance: zero.sigma,
+            loses_rank: true,
+            stable: stable(zero.s),
+        });
+        result.evidence.push(Evidence::Points { of: "[A-sE D; C F]".to_owned(), points: points.collect() });
+    }
+}
+
+/// The modes of a pair, of which the unobservable ones are the invariant zeros of the system.
+struct Zeros {
+    modes: Vec<PbhMode>,
+    region: StabilityRegion,
+    margin: f64,
+    limit: f64,
+    gap: f64,
+}
+
+impl Zeros {
+    fn of(time: TimeDomain, pair: &Reduction, tolerance: &Tolerance) -> Result<Self, PropertyError> {
+        let region = StabilityRegion::of(time == TimeDomain::Discrete);
+        Ok(Self {
+            modes: pbh_modes(&pair.A, &pair.C, tolerance)?,
+            region,
+            margin: region.margin(pair.A.norm().max(1.0), tolerance),
+            limit: tolerance.mode,
+            gap: tolerance.gap,
+        })
+    }
+
+    /// The zeros that are not stable.
+    fn bad(&self) -> impl Iterator<Item = &PbhMode> {
+        self.modes.iter().filter(|m| m.unobservable && !self.region.contains(m.value, self.margin))
+    }
+
+    /// Whether a mode that is not stable is hardly seen.
+    fn near(&self) -> bool {
+        self.modes.iter().any(|m| {
+            let ratio = m.distance / self.limit;
+            ratio > 1.0 && ratio < self.gap && !self.region.contains(m.value, self.margin)
+        })
+    }
+}
+
+/// Whether (A2) and (A3) hold, for trying further sensors.
+fn stable_zeros(system: &DescriptorSystem, tolerance: &Tolerance) -> Result<bool, PropertyError> {
+    let ask = Ask::new(system, tolerance)?;
+    if ask.joint_rank()?.rank < ask.n_unknown() {
+        return Ok(false);
+    }
+    let pair = general_reduction(&ask.at, tolerance)?;
+    Ok(Zeros::of(system.time, &pair, tolerance)?.bad().next().is_none())
+}
+
+/// The direction `(x, d)` of an invariant zero that belongs to a direction of `x1`; its largest entry is one.
+///
+/// ```text
+/// (A - s E) x + D d = 0,   C x + F d = 0:   x = N [I; R1x] x1,   d = R1d x1
+/// ```
+fn lifted(at: &Coordinates, pair: &Reduction, x1: &[Complex64]) -> Vec<Complex64> {
+    let complex = |m: DMatrix<f64>| m.map(Complex64::from);
+    let x1 = DVector::from_column_slice(x1);
+    let x2 = at.N2.ncols();
+    let states = complex(&at.N1 + &at.N2 * pair.R1.rows(0, x2)) * &x1;
+    let inputs = complex(pair.R1.rows(x2, pair.R1.nrows() - x2).into_owned()) * &x1;
+    let all: Vec<Complex64> = states.iter().chain(inputs.iter()).copied().collect();
+    let largest = all.iter().copied().fold(Complex64::ZERO, |l, z| if z.norm() > l.norm() { z } else { l });
+    if largest.norm() == 0.0 { all } else { all.into_iter().map(|z| z / largest).collect() }
+}
+
+/// The system whose states are `[x; d]`, so that its unobservable modes are the invariant zeros.
+fn with_inputs_as_states(system: &DescriptorSystem) -> DescriptorSystem {
+    let DescriptorSystem { time, E, A, C, D, F, .. } = system;
+    let (e, p, q) = (E.nrows(), C.nrows(), D.ncols());
+    DescriptorSystem {
+        time: *time,
+        E: side_by_side(&[E, &DMatrix::zeros(e, q)]),
+        A: side_by_side(&[A, D]),
+        B: DMatrix::zeros(e, 0),
+        C: side_by_side(&[C, F]),
+        D: DMatrix::zeros(e, 0),
+        F: DMatrix::zeros(p, 0),
+    }
+}

@@ -1,0 +1,132 @@
+//! Runs a plant of any shape through its completion.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::joint::check;
+use super::run::check_vector;
+use super::scenario::values;
+use super::{
+    FreeVariables, InitialState, Observed, ObserverTrajectory, Scenario, SimulationError, Trajectory,
+    WidePlant,
+};
+use crate::numerics::{Tolerance, Watch, stack};
+use crate::observer::{Injection, LinearObserver};
+use crate::system::Model;
+
+/// Simulates a scenario of a plant whose equations are not as many as its states.
+pub(super) fn run(
+    scenario: &Scenario,
+    model: &Model,
+    observers: &[Observed<'_>],
+    free: &FreeVariables,
+    tolerance: &Tolerance,
+    watch: &Watch,
+) -> Result<Trajectory, SimulationError> {
+    let system = &model.system;
+    let (n, q) = (system.n_states(), system.n_unknown_inputs());
+    check_vector("the initial state x0", scenario.x0.as_slice(), n)?;
+    for (i, observed) in observers.iter().enumerate() {
+        check(i, observed.observer, system)?;
+    }
+    if let Some(uncertainty) = &scenario.uncertainty {
+        uncertainty.varying(&system.A)?;
+    }
+    let mut u0 = DVector::zeros(system.n_inputs());
+    values(&scenario.u, 0.0, u0.as_mut_slice());
+    let wide = WidePlant::new(model, &scenario.x0, &u0, tolerance)?;
+    let completed = wide.completed(model, free)?;
+    let extended: Vec<(LinearObserver, Option<Injection>)> =
+        observers.iter().map(|observed| estimating_both(observed, q)).collect();
+    let extended: Vec<Observed<'_>> = extended
+        .iter()
+        .map(|(observer, injection)| Observed { observer, injection: injection.as_ref() })
+        .collect();
+    let square = Scenario {
+        x0: DVector::from_iterator(
+            scenario.x0.len() + q,
+            scenario.x0.iter().copied().chain(std::iter::repeat_n(0.0, q)),
+        ),
+        uncertainty: scenario.uncertainty.as_ref().map(|given| wide.uncertain(given)),
+        ..scenario.clone()
+    };
+    let found = square.run_with(&completed, &extended, (q, &free.signals), tolerance, watch);
+    let mut trajectory = found.map_err(|error| match error {
+        // the completed plant is of index 1 unless the feedback spoils it
+        SimulationError::NotIndexOne { .. } if free.feedback.is_some() => SimulationError::FreeFeedback,
+        other => other,
+    })?;
+    trajectory.remarks.extend(remarks(&wide, &trajectory, n));
+    Ok(separated(trajectory, observers, n))
+}
+
+/// The observer as an estimator of `[x; d]`; zeros where it does not estimate `d`.
+fn estimating_both(observed: &Observed<'_>, q: usize) -> (LinearObserver, Option<Injection>) {
+    let o = observed.observer;
+    let none = |m: &DMatrix<f64>| DMatrix::zeros(0, m.ncols());
+    let below = |top: &DMatrix<f64>, bottom: &DMatrix<f64>| {
+        let zeros = DMatrix::zeros(q, top.ncols());
+        stack(&[top, if bottom.nrows() == q { bottom } else { &zeros }])
+    };
+    let observer = LinearObserver {
+        P: below(&o.P, &o.Q),
+        V: below(&o.V, &o.R),
+        W: below(&o.W, &o.S),
+        Q: none(&o.Q),
+        R: none(&o.R),
+        S: none(&o.S),
+        ..o.clone()
+    };
+    let injection = observed.injection.map(|injection| Injection {
+        state: injection.state.clone(),
+        estimate: stack(&[&injection.estimate, &DMatrix::zeros(q, injection.estimate.ncols())]),
+    });
+    (observer, injection)
+}
+
+/// What a person should know: the free variables, and unknown inputs that are not as given.
+fn remarks(wide: &WidePlant, trajectory: &Trajectory, n: usize) -> Vec<String> {
+    let mut remarks = Vec::new();
+    if wide.n_free() > 0 {
+        let named = wide.directions.column_iter().enumerate().map(|(i, direction)| {
+            let terms = direction.iter().enumerate().filter(|(_, x)| x.abs() > 1e-9);
+            let terms: Vec<String> = terms.map(|(j, x)| format!("{x:+.4} x{}", j + 1)).collect();
+            format!("v{} = {}", i + 1, terms.join(" "))
+        });
+        let named: Vec<String> = named.collect();
+        remarks.push(format!("the equations leave {} free, as chosen: {}", wide.n_free(), named.join(", ")));
+    }
+    if wide.constrained > 0 {
+        let q = trajectory.x.nrows() - n;
+        let change = trajectory.x.rows(n, q) - trajectory.d.rows(0, q);
+        let largest = change.iter().fold(0.0, |l: f64, x| l.max(x.abs()));
+        remarks.push(format!(
+            "the algebraic equations determine {} of the unknown inputs (as combinations): d is corrected by up to \
+             {largest:.4e} so that they hold",
+            wide.constrained
+        ));
+    }
+    remarks
+}
+
+/// The trajectory of `x` and `d` from that of the completed plant's state `[x; d]`.
+fn separated(found: Trajectory, observers: &[Observed<'_>], n: usize) -> Trajectory {
+    let q = found.x.nrows() - n;
+    let (x, d) = (found.x.rows(0, n).into_owned(), found.x.rows(n, q).into_owned());
+    let own = |(trajectory, observed): (ObserverTrajectory, &Observed<'_>)| {
+        let estimated = observed.observer.n_estimated_inputs();
+        let d_hat = trajectory.x_hat.rows(n, estimated).into_owned();
+        let x_hat = trajectory.x_hat.rows(0, n).into_owned();
+        let e_d = if estimated == q { &d - &d_hat } else { d_hat.clone() };
+        ObserverTrajectory { e: &x - &x_hat, x_hat, e_d, d_hat, ..trajectory }
+    };
+    let InitialState { given, consistent, .. } = found.initial_state;
+    let (given, consistent) = (given[..n].to_vec(), consistent[..n].to_vec());
+    let change = given.iter().zip(&consistent).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    Trajectory {
+        observers: found.observers.into_iter().zip(observers).map(own).collect(),
+        initial_state: InitialState { given, consistent, change },
+        x,
+        d,
+        ..found
+    }
+}
