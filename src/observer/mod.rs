@@ -3,6 +3,7 @@
 mod choice;
 mod condition;
 mod design;
+pub mod hierarchical;
 mod lmi_choice;
 pub mod proportional;
 pub mod proportional_integral;

@@ -1,5 +1,6 @@
 //! L1: what is observed: descriptor systems, their structure and their properties.
 
+mod coupling;
 mod descriptor;
 mod lipschitz;
 mod model;
@@ -8,6 +9,7 @@ mod partition;
 pub mod properties;
 mod signal;
 
+pub use coupling::CouplingMatrix;
 pub use descriptor::{DescriptorSystem, SystemError, TimeDomain};
 pub use lipschitz::{LipschitzTerm, nonlinearity};
 pub use model::Model;
