@@ -78,11 +78,15 @@ fn spectrum(which: &str, found: &[Complex64], placement: &Placement) -> Check {
     }
 }
 
-/// A residual relative to the size of its terms, entry by entry the largest.
 fn check(name: &str, statement: &str, residual: &DMatrix<f64>, size: &DMatrix<f64>) -> Check {
-    let (found, size) = (largest(residual), largest(size));
-    let value = if size == 0.0 { found } else { found / size };
+    let value = relative(residual, size);
     Check { name: name.to_owned(), statement: statement.to_owned(), value, limit: 0.0 }
+}
+
+/// The largest residual, relative to the largest sum of the absolute values of its terms.
+fn relative(residual: &DMatrix<f64>, size: &DMatrix<f64>) -> f64 {
+    let (found, size) = (largest(residual), largest(size));
+    if size == 0.0 { found } else { found / size }
 }
 
 /// The largest absolute value; zero for an empty matrix, and infinite instead of what is not a number.
@@ -128,22 +132,17 @@ fn factors(network: &Network, hierarchy: &Hierarchy) -> Vec<Check> {
     ]
 }
 
-/// Both sides of an identity on all probes: the residuals side by side, and the sizes of their terms.
+/// An identity on all probes: its largest residual, relative to the terms of the same probe.
 #[derive(Default)]
-struct Probed {
-    residual: f64,
-    size: f64,
-}
+struct Probed(f64);
 
 impl Probed {
     fn add(&mut self, residual: &DMatrix<f64>, size: &DMatrix<f64>) {
-        self.residual = self.residual.max(largest(residual));
-        self.size = self.size.max(largest(size));
+        self.0 = self.0.max(relative(residual, size));
     }
 
     fn check(&self, name: &str, statement: &str) -> Check {
-        let value = if self.size == 0.0 { self.residual } else { self.residual / self.size };
-        Check { name: name.to_owned(), statement: statement.to_owned(), value, limit: 0.0 }
+        Check { name: name.to_owned(), statement: statement.to_owned(), value: self.0, limit: 0.0 }
     }
 }
 
@@ -152,7 +151,8 @@ fn operators(network: &Network, observer: &HierarchicalObserver) -> Vec<Check> {
     const SEED: u64 = 11;
     let mut random = Random::new(SEED);
     let (n, size) = (network.a.nrows(), network.n_subsystems());
-    let [mut coupling, mut dynamics, mut output, mut drive, mut error] = [(); 5].map(|()| Probed::default());
+    let [mut coupling, mut dynamics, mut output, mut drive, mut global, mut local] =
+        [(); 6].map(|()| Probed::default());
     for _ in 0..PROBES {
         let X = DMatrix::from_fn(n, size, |_, _| random.normal());
         let probe = Probe::new(network, observer, X);
@@ -160,7 +160,8 @@ fn operators(network: &Network, observer: &HierarchicalObserver) -> Vec<Check> {
         probe.dynamics(&mut dynamics);
         probe.output(&mut output);
         probe.drive(&mut drive);
-        probe.error(&mut error);
+        probe.global_error(&mut global);
+        probe.local_errors(&mut local);
     }
     vec![
         coupling.check("row space of the coupling", "Gamma N N' = Gamma"),
@@ -170,7 +171,11 @@ fn operators(network: &Network, observer: &HierarchicalObserver) -> Vec<Check> {
             "drive of every subsystem",
             "(e_i' kron I) A = beta_i sigma_z + (I kron a_I)(e_i' kron I)",
         ),
-        error.check("error dynamics", "T A = N_o T + L C for T = [sigma_z; e_i' kron I] and observer (8)"),
+        global.check("global error dynamics", "sigma_z A = (alpha_z - H gamma_z) sigma_z + H (Psi kron c_G)"),
+        local.check(
+            "local error dynamics",
+            "(e_i' kron I) A = (a_I - h_i c_L)(e_i' kron I) + beta_i sigma_z + h_i (e_i' kron c_L)",
+        ),
     ]
 }
 
@@ -252,14 +257,19 @@ impl<'a> Probe<'a> {
         probed.add(&(self.received() - &self.coupled), &self.coupled_size);
     }
 
-    /// The observer started at the truth, `z_hat = z` and `x_hat_i = x_i`, moves as the network does.
-    fn error(&self, probed: &mut Probed) {
-        let Network { a, c_L, .. } = self.network;
+    /// The global observer started at the truth, `z_hat = z`, moves as the network does.
+    fn global_error(&self, probed: &mut Probed) {
         let HierarchicalObserver { hierarchy, global, .. } = self.observer;
         let own = hierarchy.alpha_z() - &global.H * hierarchy.gamma_z();
         let (shown, size) = self.shown();
         let size = size + own.abs() * &self.z_size + global.H.abs() * &self.y_size;
         probed.add(&(shown - own * &self.z - &global.H * &self.y), &size);
+    }
+
+    /// So does every local observer, from `z_hat = z` and `x_hat_i = x_i`.
+    fn local_errors(&self, probed: &mut Probed) {
+        let Network { a, c_L, .. } = self.network;
+        let hierarchy = &self.observer.hierarchy;
         for (i, local) in self.observer.locals() {
             let x = self.X.columns(i, 1);
             let truth = a * x + self.coupled.columns(i, 1);
