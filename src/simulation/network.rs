@@ -80,27 +80,10 @@ pub fn simulate_network(
     let mut Z = &X0 * &hierarchy.N;
     let mut z_hat = DVector::zeros(hierarchy.order());
     let mut parts: Vec<Part> = shown.iter().map(|&i| Part::new(observer, i, &X0)).collect();
-
-    let mut t = Vec::new();
-    let (mut z_columns, mut z_hat_columns) = (Vec::new(), Vec::new());
-    let mut columns: Vec<(Vec<DVector<f64>>, Vec<DVector<f64>>)> = vec![Default::default(); shown.len()];
-    let mut note = None;
+    let mut record = Record { parts: vec![PartRecord::default(); shown.len()], ..Record::default() };
     for &instant in &grid {
-        let estimate = hierarchy.state_of(&z_hat);
-        let z = DVector::from_column_slice(hierarchy.M.tr_mul(&Z).as_slice());
-        let values = parts.iter().flat_map(|part| part.x.iter().chain(part.x_hat.iter()));
-        if z.iter().chain(&z_hat).chain(values).any(|x| x.is_nan() || x.abs() > LARGEST_STATE) {
-            note =
-                Some(format!("the trajectory ends at t = {instant:.6}: a state exceeds {LARGEST_STATE:e}"));
+        if !record.push(instant, hierarchy, (&Z, &z_hat), &parts) {
             break;
-        }
-        t.push(instant);
-        z_columns.push(z);
-        z_hat_columns.push(z_hat.clone());
-        for (part, (x, x_hat)) in parts.iter().zip(&mut columns) {
-            x.push(part.x.clone());
-            let smallest = || estimate.column(part.subsystem).into_owned();
-            x_hat.push(if part.gain.is_some() { part.x_hat.clone() } else { smallest() });
         }
         let step = stepper.step(&Z, &z_hat);
         for part in &mut parts {
@@ -108,27 +91,72 @@ pub fn simulate_network(
         }
         (Z, z_hat) = (step.Z, step.z_hat);
     }
-    let matrix = |rows: usize, columns: &[DVector<f64>]| {
-        if columns.is_empty() { DMatrix::zeros(rows, 0) } else { DMatrix::from_columns(columns) }
-    };
-    let subsystems = parts
-        .iter()
-        .zip(&columns)
-        .map(|(part, (x, x_hat))| SubsystemTrajectory {
+    Ok(record.finish((hierarchy.order(), n), &parts))
+}
+
+/// What has been seen so far, one vector for each instant.
+#[derive(Default)]
+struct Record {
+    t: Vec<f64>,
+    z: Vec<DVector<f64>>,
+    z_hat: Vec<DVector<f64>>,
+    parts: Vec<PartRecord>,
+    note: Option<String>,
+}
+
+/// The same of one subsystem.
+#[derive(Clone, Default)]
+struct PartRecord {
+    x: Vec<DVector<f64>>,
+    x_hat: Vec<DVector<f64>>,
+}
+
+impl Record {
+    /// Adds an instant; `false` when a state has grown too large to go on.
+    fn push(
+        &mut self,
+        instant: f64,
+        hierarchy: &Hierarchy,
+        (Z, z_hat): (&DMatrix<f64>, &DVector<f64>),
+        parts: &[Part],
+    ) -> bool {
+        let z = DVector::from_column_slice(hierarchy.M.tr_mul(Z).as_slice());
+        let values = parts.iter().flat_map(|part| part.x.iter().chain(part.x_hat.iter()));
+        if z.iter().chain(z_hat).chain(values).any(|x| x.is_nan() || x.abs() > LARGEST_STATE) {
+            self.note =
+                Some(format!("the trajectory ends at t = {instant:.6}: a state exceeds {LARGEST_STATE:e}"));
+            return false;
+        }
+        let estimate = hierarchy.state_of(z_hat);
+        for (part, record) in parts.iter().zip(&mut self.parts) {
+            record.x.push(part.x.clone());
+            let smallest = || estimate.column(part.subsystem).into_owned();
+            record.x_hat.push(if part.gain.is_some() { part.x_hat.clone() } else { smallest() });
+        }
+        self.t.push(instant);
+        self.z.push(z);
+        self.z_hat.push(z_hat.clone());
+        true
+    }
+
+    fn finish(self, (order, n): (usize, usize), parts: &[Part]) -> NetworkTrajectory {
+        let matrix = |rows: usize, columns: &[DVector<f64>]| {
+            if columns.is_empty() { DMatrix::zeros(rows, 0) } else { DMatrix::from_columns(columns) }
+        };
+        let subsystems = parts.iter().zip(&self.parts).map(|(part, record)| SubsystemTrajectory {
             subsystem: part.subsystem,
             local: part.gain.is_some(),
-            x: matrix(n, x),
-            x_hat: matrix(n, x_hat),
-        })
-        .collect();
-    let order = hierarchy.order();
-    Ok(NetworkTrajectory {
-        t,
-        z: matrix(order, &z_columns),
-        z_hat: matrix(order, &z_hat_columns),
-        subsystems,
-        note,
-    })
+            x: matrix(n, &record.x),
+            x_hat: matrix(n, &record.x_hat),
+        });
+        NetworkTrajectory {
+            z: matrix(order, &self.z),
+            z_hat: matrix(order, &self.z_hat),
+            subsystems: subsystems.collect(),
+            t: self.t,
+            note: self.note,
+        }
+    }
 }
 
 fn check(

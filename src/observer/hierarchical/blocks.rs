@@ -10,7 +10,7 @@
 //! so that no matrix of order `nu mu` is decomposed.
 #![expect(non_snake_case, reason = "matrix letters follow paper 003")]
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Matrix};
 
 use super::Hierarchy;
 use crate::numerics::Block::{Minus, Of};
@@ -148,7 +148,7 @@ pub(super) fn block_modes(
             let space = &found.spaces[k];
             let kernel = kernel(&shifted(pi, &block(hierarchy, space.lambda)), reach)?;
             let product = space.vectors.kronecker(&kernel);
-            columns.extend(product.column_iter().map(|column| column.into_owned()));
+            columns.extend(product.column_iter().map(Matrix::into_owned));
         }
         if columns.is_empty() {
             continue;
