@@ -9,7 +9,7 @@ use crate::numerics::{
 use crate::system::CouplingMatrix;
 
 /// Up to this many subsystems the singular values of the whole `Gamma` are computed.
-const DENSE: usize = 128;
+const DENSE: usize = 64;
 
 /// Columns of the first sketch of a larger `Gamma`; they are doubled until the remainder is rounding.
 const FIRST_SKETCH: usize = 16;

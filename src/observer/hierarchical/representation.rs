@@ -26,7 +26,7 @@ pub enum HierarchyError {
     Numerics(#[from] NumericsError),
     /// The global observer would be too large.
     #[error(
-        "the global observer would have {} nu mu >= {nu} * {mu} = {} states (nu = rank Gamma, mu = states of a subsystem \
+        "the global observer would have {} nu mu = {nu} * {mu} = {} states (nu = rank Gamma, mu = states of a subsystem \
          that its coupling output shows); at most {allowed} are possible: couple the subsystems by a Gamma of lower rank",
         if *exact { "exactly" } else { "at least" }, nu * mu
     )]
