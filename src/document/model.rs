@@ -1,6 +1,8 @@
 //! A document: everything that a person edits, saves and shares.
 #![expect(non_snake_case, reason = "matrix letters of the canonical form")]
 
+use std::collections::BTreeMap;
+
 use super::entry::{Entry, EntryMatrix};
 use super::limits::MAX_EXPANDED;
 use crate::numerics::Tolerance;
@@ -8,7 +10,8 @@ use crate::observer::DesignChoice;
 use crate::paper::FigureRecipe;
 use crate::simulation::Scenario;
 use crate::system::{
-    DescriptorSystem, LipschitzTerm, Model, Network, Signal, Subsystem, SystemError, TimeDomain, nonlinearity,
+    CouplingMatrix, DescriptorSystem, LipschitzTerm, Model, Network, Signal, Subsystem, SystemError,
+    TimeDomain, nonlinearity,
 };
 
 /// A problem as a person wrote it: system, design choice, scenario and figures.
@@ -172,6 +175,23 @@ impl Coupling {
             }
         }
     }
+
+    /// The values in the form in which they are given: a list of entries stays one; of two entries at one place the
+    /// later counts.
+    pub fn coupling(&self) -> CouplingMatrix {
+        match self {
+            Self::Dense(matrix) => matrix.values().into(),
+            Self::Sparse { rows, columns, entries } => {
+                let unique: BTreeMap<(usize, usize), f64> =
+                    entries.iter().map(|&(i, j, value)| ((i - 1, j - 1), value)).collect();
+                CouplingMatrix::Sparse {
+                    rows: *rows,
+                    columns: *columns,
+                    entries: unique.into_iter().map(|((i, j), value)| (i, j, value)).collect(),
+                }
+            }
+        }
+    }
 }
 
 /// A scenario as typed.
@@ -243,7 +263,7 @@ impl NetworkData {
             a: self.a.values(),
             b: self.b.values(),
             c: self.c.values(),
-            Gamma: self.Gamma.values(),
+            Gamma: self.Gamma.coupling(),
             Psi: self.Psi.values(),
             c_G: self.c_G.values(),
             c_L: self.c_L.values(),

@@ -5,6 +5,7 @@ mod condition;
 pub mod decentralized;
 mod design;
 pub mod h_infinity;
+pub mod hierarchical;
 pub mod input_decoupled;
 mod lmi_choice;
 pub mod proportional;

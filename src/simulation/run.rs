@@ -41,7 +41,7 @@ pub struct Span {
 
 impl Span {
     /// The grid, after checking the limits.
-    fn grid(self, discrete: bool) -> Result<Vec<f64>, SimulationError> {
+    pub(super) fn grid(self, discrete: bool) -> Result<Vec<f64>, SimulationError> {
         let least = if discrete { 1.0 } else { 0.0 };
         if !(self.horizon.is_finite() && self.horizon > 0.0 && self.horizon >= least) {
             return Err(SimulationError::Horizon { found: self.horizon });

@@ -1,5 +1,6 @@
 //! L1: what is observed: descriptor systems, their structure and their properties.
 
+mod coupling;
 mod descriptor;
 mod lipschitz;
 mod model;
@@ -9,6 +10,7 @@ pub mod properties;
 mod sampled_constant;
 mod signal;
 
+pub use coupling::CouplingMatrix;
 pub use descriptor::{DescriptorSystem, SystemError, TimeDomain};
 pub use lipschitz::{LipschitzError, LipschitzTerm, nonlinearity};
 pub use model::Model;

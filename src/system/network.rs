@@ -3,7 +3,7 @@
 
 use nalgebra::DMatrix;
 
-use super::{DescriptorSystem, SystemError, TimeDomain};
+use super::{CouplingMatrix, DescriptorSystem, SystemError, TimeDomain};
 
 /// `N` identical subsystems, their coupling and their measurements.
 ///
@@ -22,8 +22,8 @@ pub struct Network {
     pub b: DMatrix<f64>,
     /// Its coupling output (`c_I`).
     pub c: DMatrix<f64>,
-    /// Coupling between subsystems.
-    pub Gamma: DMatrix<f64>,
+    /// Coupling between subsystems; large networks give it by its entries.
+    pub Gamma: CouplingMatrix,
     /// Which combinations of subsystems are measured globally.
     pub Psi: DMatrix<f64>,
     /// What is measured of them.
@@ -49,11 +49,27 @@ impl Network {
         if n == 0 {
             return Err(SystemError::NoStates);
         }
+        if self.Gamma.shape() != (big, big) {
+            let found = self.Gamma.shape();
+            return Err(SystemError::Shape {
+                matrix: "Gamma",
+                found,
+                needed: (big, big),
+                reason: "Gamma is square",
+            });
+        }
+        let reach = self.Gamma.reach();
+        if reach.0.max(reach.1) > big {
+            let reason = "it has a row and a column for each entry that is listed";
+            return Err(SystemError::Shape { matrix: "Gamma", found: (big, big), needed: reach, reason });
+        }
+        if let Some((row, column)) = self.Gamma.not_finite() {
+            return Err(SystemError::NotFinite { matrix: "Gamma", row, column });
+        }
         let needed = [
             ("a", &self.a, (n, n), "a is square"),
             ("b", &self.b, (n, m), "b has a row for each state of a subsystem"),
             ("c", &self.c, (m, n), "c has a row for each column of b and a column for each state"),
-            ("Gamma", &self.Gamma, (big, big), "Gamma is square"),
             ("Psi", &self.Psi, (self.Psi.nrows(), big), "Psi has a column for each subsystem"),
             ("c_G", &self.c_G, (self.c_G.nrows(), n), "c_G has a column for each state of a subsystem"),
             ("c_L", &self.c_L, (self.c_L.nrows(), n), "c_L has a column for each state of a subsystem"),
@@ -70,6 +86,15 @@ impl Network {
                 });
             }
         }
+        let last = self.local.iter().max().map_or(0, |i| i + 1);
+        if last > big {
+            return Err(SystemError::Shape {
+                matrix: "e_I",
+                found: (last, self.local.len()),
+                needed: (big, self.local.len()),
+                reason: "a subsystem with local measurements is one of the N subsystems",
+            });
+        }
         Ok(self)
     }
 
@@ -85,7 +110,7 @@ impl Network {
         let (n, big) = (self.a.nrows(), self.n_subsystems());
         let unit = DMatrix::<f64>::identity(big, big);
         let total = n * big;
-        let A = unit.kronecker(&self.a) + self.Gamma.kronecker(&(&self.b * &self.c));
+        let A = unit.kronecker(&self.a) + self.Gamma.dense().kronecker(&(&self.b * &self.c));
         let local = unit.select_rows(&self.local).kronecker(&self.c_L);
         let C = crate::numerics::stack(&[&self.Psi.kronecker(&self.c_G), &local]);
         let none = |rows| DMatrix::zeros(rows, 0);
@@ -112,7 +137,7 @@ mod tests {
             a: dmatrix![-1.0],
             b: dmatrix![1.0],
             c: dmatrix![1.0],
-            Gamma: dmatrix![-1.0, 1.0; 1.0, -1.0],
+            Gamma: dmatrix![-1.0, 1.0; 1.0, -1.0].into(),
             Psi: dmatrix![1.0, -1.0],
             c_G: dmatrix![1.0],
             c_L: dmatrix![2.0],
@@ -129,10 +154,32 @@ mod tests {
 
     #[test]
     fn a_coupling_of_the_wrong_shape_is_named() {
-        let network = Network { Gamma: dmatrix![0.0, 1.0], ..pair() };
+        let network = Network { Gamma: dmatrix![0.0, 1.0].into(), ..pair() };
         assert!(
             matches!(network.checked(), Err(SystemError::Shape { matrix: "Gamma", .. })),
             "Gamma is not square"
+        );
+    }
+
+    #[test]
+    fn a_sparse_coupling_expands_to_the_same_system() {
+        let entries = vec![(0, 0, -1.0), (0, 1, 1.0), (1, 0, 1.0), (1, 1, -1.0)];
+        let sparse = Network { Gamma: CouplingMatrix::Sparse { rows: 2, columns: 2, entries }, ..pair() };
+        assert_eq!(sparse.checked().unwrap().expanded(), pair().expanded(), "the same entries");
+    }
+
+    #[test]
+    fn entries_and_subsystems_outside_the_network_are_refused() {
+        let entries = vec![(0, 2, 1.0)];
+        let network = Network { Gamma: CouplingMatrix::Sparse { rows: 2, columns: 2, entries }, ..pair() };
+        assert!(
+            matches!(network.checked(), Err(SystemError::Shape { matrix: "Gamma", needed: (1, 3), .. })),
+            "column 3 of 2"
+        );
+        let network = Network { local: vec![2], ..pair() };
+        assert!(
+            matches!(network.checked(), Err(SystemError::Shape { matrix: "e_I", found: (3, 1), .. })),
+            "subsystem 3 of 2"
         );
     }
 }
