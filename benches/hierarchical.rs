@@ -57,7 +57,7 @@ fn poles(slowest: f64, count: u32) -> Vec<Complex64> {
 }
 
 fn choice() -> DesignChoice {
-    DesignChoice { poles: poles(-2.0, 6), ..DesignChoice::default() }
+    DesignChoice { poles: poles(-2.0, 6), local_poles: poles(-4.0, 5), ..DesignChoice::default() }
 }
 
 #[divan::bench(args = SIZES)]
@@ -82,13 +82,13 @@ fn ask_conditions(bencher: divan::Bencher<'_, '_>, size: usize) {
 #[divan::bench(args = SIZES)]
 fn design_and_verify(bencher: divan::Bencher<'_, '_>, size: usize) {
     let network = network(size);
-    bencher.bench(|| design(&network, &choice(), &poles(-4.0, 5), &[], &Tolerance::default()));
+    bencher.bench(|| design(&network, &choice(), &[], &Tolerance::default()));
 }
 
 #[divan::bench(args = SIZES)]
 fn verify_alone(bencher: divan::Bencher<'_, '_>, size: usize) {
     let network = network(size);
-    let Ok(made) = design(&network, &choice(), &poles(-4.0, 5), &[], &Tolerance::default()) else { return };
+    let Ok(made) = design(&network, &choice(), &[], &Tolerance::default()) else { return };
     bencher.bench(|| verify_network(&network, &made.observer, &Tolerance::default()));
 }
 
@@ -96,7 +96,7 @@ fn verify_alone(bencher: divan::Bencher<'_, '_>, size: usize) {
 #[divan::bench(args = SIZES)]
 fn simulate(bencher: divan::Bencher<'_, '_>, size: usize) {
     let network = network(size);
-    let Ok(made) = design(&network, &choice(), &poles(-4.0, 5), &[], &Tolerance::default()) else { return };
+    let Ok(made) = design(&network, &choice(), &[], &Tolerance::default()) else { return };
     let x0: Vec<f64> = (1..=5 * size).map(|k| 5.0 * (k as f64).sin()).collect();
     let shown: Vec<usize> = (0..size).collect();
     let span = Span { horizon: 8.0, samples: 401 };

@@ -3,7 +3,9 @@
 
 use descry::numerics::{Tolerance, Watch};
 use descry::observer::{Injection, LinearObserver};
-use descry::simulation::{Inputs, Observed, Plant, Scenario, Silence, Span, Uncertainty, simulate};
+use descry::simulation::{
+    FreeVariables, Inputs, Observed, Plant, Scenario, Silence, Span, Uncertainty, simulate,
+};
 use descry::system::{DescriptorSystem, LipschitzTerm, Model, Signal, TimeDomain, nonlinearity};
 use nalgebra::{DMatrix, dmatrix};
 
@@ -120,6 +122,7 @@ fn paper_002_with_400_kinks(bencher: divan::Bencher<'_, '_>) {
         d,
         noise: Vec::new(),
         uncertainty: None,
+        free: FreeVariables::default(),
     };
     let observed = [Observed { observer: &observer, injection: Some(&injection) }];
     let (tolerance, watch) = (Tolerance::default(), Watch::none());

@@ -419,7 +419,7 @@ fn the_network_of_paper_003_is_held() {
         ("aI", &network.a),
         ("bI", &network.b),
         ("cI", &network.c),
-        ("Gam", &network.Gamma),
+        ("Gam", &network.Gamma.dense()),
         ("Psi", &network.Psi),
         ("cG", &network.c_G),
         ("cL", &network.c_L),
@@ -435,7 +435,7 @@ fn the_network_of_paper_003_is_held() {
 #[cfg(not(target_arch = "wasm32"))]
 mod random {
     use super::*;
-    use descry::document::{DescriptorData, Entry, EntryMatrix, ScenarioData};
+    use descry::document::{DescriptorData, Entry, EntryMatrix, FreeData, KeptDesign, ScenarioData};
     use descry::numerics::{Complex64, Tolerance};
     use descry::observer::{DesignChoice, GivenObserver, LmiChoice, Method, Order};
     use descry::system::Signal;
@@ -475,16 +475,19 @@ mod random {
             (-50.0..-0.1, 0.1..9.0)
                 .prop_map(|(x, y): (f64, f64)| vec![Complex64::new(x, y), Complex64::new(x, -y)])
         ];
-        let poles = prop::collection::vec(pole, 0..4).prop_map(|poles| poles.concat());
+        let poles = prop::collection::vec(pole, 0..4).prop_map(|poles| poles.concat()).boxed();
         let (methods, orders) =
             (prop::sample::select(&Method::ALL[..]), prop::sample::select(&Order::ALL[..]));
-        (methods, orders, poles, 0.001..1000.0, 0..=u64::from(u32::MAX), demands()).prop_map(
-            |(method, order, poles, scale, seed, lmi)| DesignChoice {
+        let seed = 0..=u64::from(u32::MAX);
+        (methods, orders, poles.clone(), 0.001..1000.0, seed, poles, demands()).prop_map(
+            |(method, order, poles, scale, seed, local_poles, lmi)| DesignChoice {
                 method,
                 order,
                 poles,
                 scale,
                 seed,
+                local_poles,
+                plugged: None,
                 lmi,
             },
         )
@@ -535,8 +538,20 @@ mod random {
                 signals(p),
             );
             let text = ".{0,12}";
-            (matrices, any::<bool>(), design(), scenario, [text, text, text]).prop_map(
-                |(matrices, discrete, design, (horizon, samples, x0, u, d, noise), [title, notes, paper])| {
+            let free = (signals(2), prop::option::of(matrix(1, n)))
+                .prop_map(|(signals, feedback)| FreeData { signals, feedback });
+            let kept = prop::collection::vec(design(), 0..3);
+            let choices = (design(), kept, free);
+            (matrices, any::<bool>(), choices, scenario, [text, text, text]).prop_map(
+                |(
+                    matrices,
+                    discrete,
+                    choices,
+                    (horizon, samples, x0, u, d, noise),
+                    [title, notes, paper],
+                )| {
+                    let (design, kept, free) = choices;
+                    let named = |(k, design)| KeptDesign { name: format!("design {k}"), design };
                     Document {
                         title,
                         notes,
@@ -548,8 +563,9 @@ mod random {
                             lipschitz: None,
                         }),
                         design,
-                        scenario: ScenarioData { horizon, samples, x0, u, d, noise, uncertainty: None },
+                        scenario: ScenarioData { horizon, samples, x0, u, d, noise, uncertainty: None, free },
                         tolerance: Tolerance::default(),
+                        kept: kept.into_iter().enumerate().map(named).collect(),
                         figures: Vec::new(),
                     }
                 },

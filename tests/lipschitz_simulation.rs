@@ -6,7 +6,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use descry::numerics::{Tolerance, Watch};
 use descry::observer::{Injection, LinearObserver};
-use descry::simulation::{Method, Observed, Scenario, SimulationError, Trajectory, Uncertainty};
+use descry::simulation::{
+    FreeVariables, Method, Observed, Scenario, SimulationError, Trajectory, Uncertainty,
+};
 use descry::system::{DescriptorSystem, LipschitzTerm, Model, Signal, TimeDomain, nonlinearity};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use serde_json::Value;
@@ -25,7 +27,16 @@ fn signals(texts: &[&str]) -> Vec<Signal> {
 }
 
 fn scenario(horizon: f64, samples: usize, x0: DVector<f64>) -> Scenario {
-    Scenario { horizon, samples, x0, u: Vec::new(), d: Vec::new(), noise: Vec::new(), uncertainty: None }
+    Scenario {
+        horizon,
+        samples,
+        x0,
+        u: Vec::new(),
+        d: Vec::new(),
+        noise: Vec::new(),
+        uncertainty: None,
+        free: FreeVariables::default(),
+    }
 }
 
 /// `E x' = A x + G f(x) + B u`, `y = C x` with the first state as the output.

@@ -11,7 +11,7 @@ use descry::observer::hierarchical::{
     MOST_GLOBAL_STATES, composite, conditions, design, design_global, design_local, verify_network,
 };
 use descry::observer::{Check, Condition, DesignChoice, DesignError, Evidence, Verdict};
-use descry::simulation::{Scenario, Span, simulate_network};
+use descry::simulation::{FreeVariables, Scenario, Span, simulate_network};
 use descry::system::{CouplingMatrix, Network};
 use nalgebra::{DMatrix, DVector, dmatrix};
 use serde_json::Value;
@@ -60,7 +60,11 @@ fn network() -> Network {
 }
 
 fn choice() -> DesignChoice {
-    DesignChoice { poles: real(&[-2.0, -2.5, -3.0, -3.5, -4.0, -4.5]), ..DesignChoice::default() }
+    DesignChoice {
+        poles: real(&[-2.0, -2.5, -3.0, -3.5, -4.0, -4.5]),
+        local_poles: local_poles(),
+        ..DesignChoice::default()
+    }
 }
 
 fn local_poles() -> Vec<Complex64> {
@@ -69,7 +73,7 @@ fn local_poles() -> Vec<Complex64> {
 
 fn designed(network: &Network) -> HierarchicalDesign {
     let asked = conditions(network, &tolerance()).unwrap();
-    design(network, &choice(), &local_poles(), &asked, &tolerance()).unwrap()
+    design(network, &choice(), &asked, &tolerance()).unwrap()
 }
 
 fn x0(states: usize) -> Vec<f64> {
@@ -270,16 +274,14 @@ fn local_observers_come_and_go_without_touching_the_global_one() {
     let hierarchy = Hierarchy::of(&network, &tolerance()).unwrap();
     let global = design_global(&hierarchy, &choice(), &tolerance()).unwrap();
     let mut observer = HierarchicalObserver::new(hierarchy, global.clone());
-    let local = design_local(&network, &local_poles(), &choice(), &tolerance()).unwrap();
+    let local = design_local(&network, &choice(), &tolerance()).unwrap();
     assert!(
         verify_network(&network, &observer, &tolerance()).unwrap().verified(),
         "the global observer alone"
     );
     observer.plug_in(&network, 3, local.clone()).unwrap();
     let slow = DesignChoice { scale: 0.5, ..choice() };
-    observer
-        .plug_in(&network, 1, design_local(&network, &local_poles(), &slow, &tolerance()).unwrap())
-        .unwrap();
+    observer.plug_in(&network, 1, design_local(&network, &slow, &tolerance()).unwrap()).unwrap();
     let both = verify_network(&network, &observer, &tolerance()).unwrap();
     assert!(both.verified() && both.spectrum.len() == 16, "two different local observers: {:?}", both.checks);
     assert_eq!(composite(&network, &observer).unwrap().order(), 16, "6 + 2 * 5");
@@ -294,14 +296,15 @@ fn local_observers_come_and_go_without_touching_the_global_one() {
 fn lists_of_poles_are_told_apart() {
     let network = network();
     let asked = conditions(&network, &tolerance()).unwrap();
-    let error = design(&network, &choice(), &local_poles()[..3], &asked, &tolerance()).unwrap_err();
+    let short = DesignChoice { local_poles: local_poles()[..3].to_vec(), ..choice() };
+    let error = design(&network, &short, &asked, &tolerance()).unwrap_err();
     assert_eq!(
         error.to_string(),
         "poles of the local observer: 3 poles are given, but this design places 5: add 2",
         "which list"
     );
-    let few = DesignChoice { poles: real(&[-1.0]), ..DesignChoice::default() };
-    let error = design(&network, &few, &local_poles(), &asked, &tolerance()).unwrap_err();
+    let few = DesignChoice { poles: real(&[-1.0]), ..choice() };
+    let error = design(&network, &few, &asked, &tolerance()).unwrap_err();
     assert!(error.to_string().starts_with("poles of the global observer: 1 poles"), "{error}");
 }
 
@@ -376,8 +379,9 @@ fn simulation_without_expansion_agrees_with_the_expanded_one() {
         d: Vec::new(),
         noise: Vec::new(),
         uncertainty: None,
+        free: FreeVariables::default(),
     };
-    let whole = scenario.run(&network.expanded(), &[&one], &tolerance()).unwrap();
+    let whole = scenario.run_linear(&network.expanded(), &[&one], &tolerance()).unwrap();
     let span = Span { horizon: 6.0, samples: 61 };
     let found = simulate_network(&network, &observer, &x0(20), span, &[0, 1, 2, 3]).unwrap();
     for (i, part) in found.subsystems.iter().enumerate() {
@@ -434,7 +438,7 @@ fn two_coupling_strengths_are_enough_to_hide_a_shared_mode() {
     assert!((witness.s.unwrap() - 0.5).norm() < 1e-9, "the mode is the uncontrollable one");
     let remedies = &find(&found, "003-P1-global").remedies;
     assert!(remedies.iter().any(|r| r == "adding row 1 of Gamma to Psi would restore it"), "{remedies:?}");
-    let error = design(&network, &choice(), &local_poles(), &found, &tolerance()).unwrap_err();
+    let error = design(&network, &choice(), &found, &tolerance()).unwrap_err();
     assert!(matches!(error, DesignError::Condition { ref id, .. } if id == "003-P1-global"), "{error}");
 }
 
@@ -445,7 +449,7 @@ fn a_hidden_mode_that_decays_is_no_obstacle() {
     assert_eq!(find(&found, "003-T2-iii").verdict, Verdict::Fails, "still not observable");
     let global = find(&found, "003-P1-global");
     assert_eq!(global.verdict, Verdict::Holds, "but detectable: {}", global.summary);
-    let design = design(&network, &choice(), &local_poles(), &found, &tolerance()).unwrap();
+    let design = design(&network, &choice(), &found, &tolerance()).unwrap();
     assert!(design.verification.verified(), "{:#?}", design.verification.checks);
     assert_eq!(design.observer.global.placement.fixed_modes.len(), 1, "one mode stays");
     assert!(
@@ -482,7 +486,7 @@ fn an_undetectable_subsystem_names_the_missing_sensor() {
     let without = Network { local: Vec::new(), ..blind };
     let found = conditions(&without, &tolerance()).unwrap();
     assert!(!find(&found, "003-P1-local").needed, "no local observer is asked for");
-    let design = design(&without, &choice(), &[], &found, &tolerance()).unwrap();
+    let design = design(&without, &choice(), &found, &tolerance()).unwrap();
     assert!(
         design.verification.verified() && design.observer.locals().count() == 0,
         "the global observer alone"
@@ -499,7 +503,7 @@ fn a_defective_coupling_is_left_to_the_pbh_test() {
     assert_eq!(third.verdict, Verdict::Undecided, "{}", third.summary);
     assert!(third.summary.contains("not diagonalisable"), "{}", third.summary);
     assert_eq!(find(&found, "003-P1-global").verdict, Verdict::Holds, "the chain ends at the output");
-    let design = design(&network, &choice(), &local_poles(), &found, &tolerance()).unwrap();
+    let design = design(&network, &choice(), &found, &tolerance()).unwrap();
     assert!(design.verification.verified(), "{:#?}", design.verification.checks);
 }
 
@@ -508,7 +512,7 @@ fn nothing_coupled_is_nothing_to_estimate_globally() {
     let Gamma = DMatrix::zeros(4, 4).into();
     let network = Network { Gamma, Psi: DMatrix::zeros(0, 4), ..network() };
     let found = conditions(&network, &tolerance()).unwrap();
-    let design = design(&network, &choice(), &local_poles(), &found, &tolerance()).unwrap();
+    let design = design(&network, &choice(), &found, &tolerance()).unwrap();
     assert_eq!(design.observer.hierarchy.order(), 0, "nu = 0");
     assert!(design.verification.verified(), "{:#?}", design.verification.checks);
     let span = Span { horizon: 4.0, samples: 5 };
@@ -523,7 +527,7 @@ fn a_stable_whole_needs_no_global_output() {
     let found = conditions(&network, &tolerance()).unwrap();
     let global = find(&found, "003-P1-global");
     assert!(global.verdict.holds() && global.summary.contains("6 fixed modes"), "{}", global.summary);
-    let design = design(&network, &choice(), &local_poles(), &found, &tolerance()).unwrap();
+    let design = design(&network, &choice(), &found, &tolerance()).unwrap();
     assert!(design.verification.verified(), "{:#?}", design.verification.checks);
     assert_eq!(design.observer.global.H.shape(), (6, 0), "there is nothing to feed back");
     let span = Span { horizon: 100.0, samples: 11 };
@@ -606,8 +610,9 @@ fn one_hundred_and_fifty_random_networks_agree_with_a_direct_test_of_the_expande
         two += usize::from(network.b.ncols() == 2);
         if detectable && find(&found, "003-P1-local").verdict.holds() && seed % 5 == 0 {
             let poles: Vec<f64> = (0..20).map(|k| -1.0 - 0.5 * f64::from(k)).collect();
-            let choice = DesignChoice { poles: real(&poles), ..DesignChoice::default() };
-            let made = design(&network, &choice, &real(&poles), &found, &tolerance()).unwrap();
+            let choice =
+                DesignChoice { poles: real(&poles), local_poles: real(&poles), ..DesignChoice::default() };
+            let made = design(&network, &choice, &found, &tolerance()).unwrap();
             let placed = &made.observer.global.placement;
             let fair = placed.warnings.is_empty()
                 && made.observer.locals().all(|(_, l)| l.placement.warnings.is_empty());
@@ -651,7 +656,7 @@ fn hub_network(size: usize, hubs: usize) -> Network {
 
 fn many_poles() -> DesignChoice {
     let poles: Vec<f64> = (0..MOST_GLOBAL_STATES).map(|k| -2.0 - 0.25 * k as f64).collect();
-    DesignChoice { poles: real(&poles), ..DesignChoice::default() }
+    DesignChoice { poles: real(&poles), local_poles: local_poles(), ..DesignChoice::default() }
 }
 
 #[test]
@@ -661,7 +666,7 @@ fn a_thousand_subsystems_with_few_hubs_are_designed_checked_and_simulated() {
     for condition in found.iter().filter(|condition| condition.needed) {
         assert!(condition.verdict.holds(), "{}: {}", condition.id, condition.summary);
     }
-    let design = design(&network, &many_poles(), &local_poles(), &found, &tolerance()).unwrap();
+    let design = design(&network, &many_poles(), &found, &tolerance()).unwrap();
     assert!(design.verification.verified(), "{:#?}", design.verification.checks);
     assert_eq!(design.observer.hierarchy.order(), 6, "nu = 3 hubs, mu = 2");
     let span = Span { horizon: 6.0, samples: 61 };
@@ -684,7 +689,7 @@ fn sparse_and_dense_couplings_give_the_same_design() {
         let dense = Network { Gamma: sparse.Gamma.dense().into(), ..sparse.clone() };
         let [first, second] = [&sparse, &dense].map(|network| {
             let found = conditions(network, &tolerance()).unwrap();
-            design(network, &many_poles(), &local_poles(), &found, &tolerance()).unwrap()
+            design(network, &many_poles(), &found, &tolerance()).unwrap()
         });
         for name in ["N", "M", "Gamma_nu", "alpha_z", "gamma_z", "H"] {
             let of = |design: &HierarchicalDesign| {
@@ -705,7 +710,7 @@ fn a_dense_coupling_of_low_rank_is_found_in_a_large_ring() {
     let Psi = DMatrix::from_fn(2, size, |i, j| if i == 0 { angle(j).cos() } else { angle(j).sin() });
     let network = Network { Gamma: Gamma.into(), Psi, local: vec![5], ..network() };
     let found = conditions(&network, &tolerance()).unwrap();
-    let design = design(&network, &many_poles(), &local_poles(), &found, &tolerance()).unwrap();
+    let design = design(&network, &many_poles(), &found, &tolerance()).unwrap();
     assert_eq!(design.observer.hierarchy.N.ncols(), 2, "cosine and sine");
     assert!(design.verification.verified(), "{:#?}", design.verification.checks);
 }
@@ -725,10 +730,7 @@ fn a_plain_ring_is_refused_with_found_and_allowed() {
         assert!(text.contains(exact) && text.contains("at most 48"), "{text}");
         let found = conditions(&network, &tolerance()).unwrap();
         assert_eq!(find(&found, "003-P1-global").verdict, Verdict::Undecided, "not asked");
-        assert!(
-            design(&network, &choice(), &local_poles(), &found, &tolerance()).is_err(),
-            "and not designed"
-        );
+        assert!(design(&network, &choice(), &found, &tolerance()).is_err(), "and not designed");
     }
 }
 

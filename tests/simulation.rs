@@ -676,6 +676,7 @@ fn a_signal_that_jumps_too_often_is_refused_and_named() {
         d: Vec::new(),
         noise: Vec::new(),
         uncertainty: None,
+        free: descry::simulation::FreeVariables::default(),
     };
     let error = scenario.run_linear(&system, &[], &Tolerance::default()).unwrap_err().to_string();
     assert!(error.contains("square(1e5*t)") && error.contains("10000"), "{error}");

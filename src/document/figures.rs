@@ -7,8 +7,9 @@ use super::cursor::{Cursor, Object};
 use super::entry::number;
 use super::limits::MAX_FIGURES;
 use super::lmi::{lmi_value, read_lmi};
-use super::read::{Sizes, method_words, order_words, read_poles, read_signals};
-use super::write::{poles_value, signals_value};
+use super::model::FreeData;
+use super::read::{Sizes, method_words, order_words, read_free, read_plugged, read_poles, read_signals};
+use super::write::{free_value, plugged_value, poles_value, signals_value};
 use crate::paper::{
     DesignPatch, FigureRecipe, PanelRecipe, Quantity, RunRecipe, ScenarioPatch, SeriesRecipe, Transfer,
 };
@@ -74,18 +75,20 @@ fn run(cursor: &Cursor<'_>, sizes: &Sizes) -> Result<RunRecipe, DocumentError> {
 }
 
 fn design_patch(cursor: &Cursor<'_>, sizes: &Sizes) -> Result<DesignPatch, DocumentError> {
-    let object = cursor.object(&["method", "order", "poles", "scale", "lmi"])?;
+    let object = cursor.object(&["method", "order", "poles", "scale", "local poles", "plugged", "lmi"])?;
     Ok(DesignPatch {
         method: object.get("method").map(|c| c.word(&method_words())).transpose()?,
         order: object.get("order").map(|c| c.word(&order_words())).transpose()?,
         poles: object.get("poles").map(|c| read_poles(&c)).transpose()?,
         scale: object.get("scale").map(|c| c.number_in(1e-3, 1e3)).transpose()?,
+        local_poles: object.get("local poles").map(|c| read_poles(&c)).transpose()?,
+        plugged: object.get("plugged").map(|c| read_plugged(&c, sizes)).transpose()?,
         lmi: object.get("lmi").map(|c| read_lmi(&c, sizes)).transpose()?,
     })
 }
 
 fn scenario_patch(cursor: &Cursor<'_>, sizes: &Sizes) -> Result<ScenarioPatch, DocumentError> {
-    let object = cursor.object(&["u", "d", "noise", "horizon", "uncertainty scale"])?;
+    let object = cursor.object(&["u", "d", "noise", "horizon", "uncertainty scale", "free"])?;
     let signals = |key, count, of| object.get(key).map(|c| read_signals(&c, count, of)).transpose();
     Ok(ScenarioPatch {
         u: signals("u", sizes.inputs, "known inputs (columns of B)")?,
@@ -93,6 +96,7 @@ fn scenario_patch(cursor: &Cursor<'_>, sizes: &Sizes) -> Result<ScenarioPatch, D
         noise: signals("noise", sizes.outputs, "outputs (rows of C)")?,
         horizon: object.get("horizon").map(|c| c.number_in(1e-6, super::limits::MAX_HORIZON)).transpose()?,
         uncertainty_scale: object.get("uncertainty scale").map(|c| c.number_in(0.0, 1e3)).transpose()?,
+        free: object.get("free").map(|c| read_free(&c, sizes).map(|free| free.values())).transpose()?,
     })
 }
 
@@ -214,6 +218,8 @@ fn run_value(run: &RunRecipe) -> Value {
     design.put("order", run.design.order.map(|o| json!(o.key())));
     design.put("poles", run.design.poles.as_deref().map(poles_value));
     design.put("scale", run.design.scale.map(number));
+    design.put("local poles", run.design.local_poles.as_deref().map(poles_value));
+    design.put("plugged", run.design.plugged.as_deref().map(plugged_value));
     design.put("lmi", run.design.lmi.as_ref().map(|lmi| lmi_value(lmi).unwrap_or_else(|| json!({}))));
     let mut scenario = Writer::default();
     scenario.put("u", run.scenario.u.as_deref().map(signals_value));
@@ -221,6 +227,7 @@ fn run_value(run: &RunRecipe) -> Value {
     scenario.put("noise", run.scenario.noise.as_deref().map(signals_value));
     scenario.put("horizon", run.scenario.horizon.map(number));
     scenario.put("uncertainty scale", run.scenario.uncertainty_scale.map(number));
+    scenario.put("free", run.scenario.free.as_ref().map(|free| free_value(&FreeData::of(free))));
     let mut writer = Writer::default();
     writer.text("name", &run.name);
     writer.nested("design", design);

@@ -30,8 +30,8 @@ pub use json::to_json;
 pub use link::{LinkError, from_link_fragment, is_link_fragment, to_link_fragment};
 pub use matrix_text::{MatrixSyntax, matrix_to_text};
 pub use model::{
-    Coupling, DescriptorData, Document, LipschitzData, Matrix, NetworkData, PlantData, ScenarioData,
-    UncertaintyData,
+    Coupling, DescriptorData, Document, FreeData, KeptDesign, LipschitzData, Matrix, NetworkData, PlantData,
+    ScenarioData, Subject, UncertaintyData,
 };
 pub use read::{Sizes, read_document};
 pub use write::{write_document, write_document_compact};

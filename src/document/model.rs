@@ -8,7 +8,7 @@ use super::limits::MAX_EXPANDED;
 use crate::numerics::Tolerance;
 use crate::observer::DesignChoice;
 use crate::paper::FigureRecipe;
-use crate::simulation::Scenario;
+use crate::simulation::{FreeVariables, Scenario};
 use crate::system::{
     CouplingMatrix, DescriptorSystem, LipschitzTerm, Model, Network, Signal, Subsystem, SystemError,
     TimeDomain, nonlinearity,
@@ -31,8 +31,19 @@ pub struct Document {
     pub scenario: ScenarioData,
     /// Thresholds.
     pub tolerance: Tolerance,
+    /// Designs that are kept beside the chosen one, to be compared with it.
+    pub kept: Vec<KeptDesign>,
     /// Figures that can be drawn from it.
     pub figures: Vec<FigureRecipe>,
+}
+
+/// A design that is kept beside the chosen one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KeptDesign {
+    /// Its name in tables and legends.
+    pub name: String,
+    /// The choice.
+    pub design: DesignChoice,
 }
 
 /// The two ways to give a system.
@@ -211,6 +222,32 @@ pub struct ScenarioData {
     pub noise: Vec<Signal>,
     /// Time-varying uncertainty of `A`.
     pub uncertainty: Option<UncertaintyData>,
+    /// What drives the states that the equations leave free.
+    pub free: FreeData,
+}
+
+/// `v = v0(t) - feedback x`, see [`FreeVariables`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FreeData {
+    /// The signals `v0`; missing ones are zero.
+    pub signals: Vec<Signal>,
+    /// State feedback, a row for each free variable and a column for each state.
+    pub feedback: Option<EntryMatrix>,
+}
+
+impl FreeData {
+    /// As typed by a program: plain numbers.
+    pub fn of(free: &FreeVariables) -> Self {
+        Self { signals: free.signals.clone(), feedback: free.feedback.as_ref().map(EntryMatrix::from_matrix) }
+    }
+
+    /// The values.
+    pub fn values(&self) -> FreeVariables {
+        FreeVariables {
+            signals: self.signals.clone(),
+            feedback: self.feedback.as_ref().map(EntryMatrix::values),
+        }
+    }
 }
 
 /// `a_ij(t) = a_ij (1 + scale * amplitude_ij * sin(2 pi frequency_ij t))`.
@@ -254,6 +291,11 @@ impl LipschitzData {
 }
 
 impl NetworkData {
+    /// States of all subsystems together, N n.
+    pub fn states(&self) -> usize {
+        self.a.shape().0 * self.Gamma.shape().0
+    }
+
     /// The checked network.
     ///
     /// # Errors
@@ -273,6 +315,25 @@ impl NetworkData {
     }
 }
 
+/// What a document's design is for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Subject {
+    /// A plant as one system; a small network is expanded.
+    Model(Box<Model>),
+    /// A network with more than [`MAX_EXPANDED`] states: only the hierarchical observer, which never expands it, can be
+    /// designed.
+    Network(Box<Network>),
+}
+
+/// A network that is small enough to be written as one system.
+fn expandable(data: &NetworkData) -> Result<Network, SystemError> {
+    let found = data.states();
+    if found > MAX_EXPANDED {
+        return Err(SystemError::TooLarge { found, limit: MAX_EXPANDED });
+    }
+    data.network()
+}
+
 impl Document {
     /// The system as one descriptor system.
     ///
@@ -281,13 +342,20 @@ impl Document {
     pub fn system(&self) -> Result<DescriptorSystem, SystemError> {
         match &self.plant {
             PlantData::Descriptor(data) => data.system(),
-            PlantData::Network(data) => {
-                let found = data.a.shape().0 * data.Gamma.shape().0;
-                if found > MAX_EXPANDED {
-                    return Err(SystemError::TooLarge { found, limit: MAX_EXPANDED });
-                }
-                Ok(data.network()?.expanded())
+            PlantData::Network(data) => Ok(expandable(data)?.expanded()),
+        }
+    }
+
+    /// What is designed for: the plant as one system, or a network that is too large to be one.
+    ///
+    /// # Errors
+    /// The first matrix that does not fit.
+    pub fn subject(&self) -> Result<Subject, SystemError> {
+        match &self.plant {
+            PlantData::Network(data) if data.states() > MAX_EXPANDED => {
+                Ok(Subject::Network(Box::new(data.network()?)))
             }
+            _ => Ok(Subject::Model(Box::new(self.model()?))),
         }
     }
 
@@ -296,18 +364,18 @@ impl Document {
     /// # Errors
     /// The first matrix that does not fit.
     pub fn model(&self) -> Result<Model, SystemError> {
-        let mut model = Model::from(self.system()?);
-        if let PlantData::Descriptor(data) = &self.plant {
-            model.lipschitz =
-                data.lipschitz.as_ref().and_then(|lipschitz| lipschitz.term(model.system.n_states()));
-            model.partition.clone_from(&data.partition);
-        }
-        Ok(model)
+        let data = match &self.plant {
+            PlantData::Network(data) => return Ok(expandable(data)?.into()),
+            PlantData::Descriptor(data) => data,
+        };
+        let system = data.system()?;
+        let lipschitz = data.lipschitz.as_ref().and_then(|lipschitz| lipschitz.term(system.n_states()));
+        Ok(Model { lipschitz, partition: data.partition.clone(), ..Model::from(system) })
     }
 
     /// The scenario with missing signals and initial states filled by zeros.
     pub fn scenario(&self, system: &DescriptorSystem) -> Scenario {
-        let ScenarioData { horizon, samples, x0, u, d, noise, uncertainty } = &self.scenario;
+        let ScenarioData { horizon, samples, x0, u, d, noise, uncertainty, free } = &self.scenario;
         let mut x0: Vec<f64> = x0.iter().map(|entry| entry.value).collect();
         x0.resize(system.n_states(), 0.0);
         let uncertainty = uncertainty.as_ref().map(|data| crate::simulation::Uncertainty {
@@ -323,6 +391,7 @@ impl Document {
             d: d.clone(),
             noise: noise.clone(),
             uncertainty,
+            free: free.values(),
         }
     }
 }

@@ -3,10 +3,13 @@
 
 use super::cursor::{Cursor, Object, parse};
 use super::entry::{Entry, EntryMatrix};
-use super::limits::{MAX_HORIZON, MAX_POLES, MAX_SAMPLES, MAX_SIDE, MAX_SPARSE_ENTRIES, MAX_SUBSYSTEMS};
+use super::limits::{
+    MAX_HORIZON, MAX_KEPT, MAX_POLES, MAX_SAMPLES, MAX_SIDE, MAX_SPARSE_ENTRIES, MAX_SUBSYSTEMS,
+};
 use super::lmi::read_lmi;
 use super::model::{
-    Coupling, DescriptorData, Document, LipschitzData, NetworkData, PlantData, ScenarioData, UncertaintyData,
+    Coupling, DescriptorData, Document, FreeData, KeptDesign, LipschitzData, NetworkData, PlantData,
+    ScenarioData, UncertaintyData,
 };
 use super::{DocumentError, VERSION, read_figures};
 use crate::numerics::{Complex64, Tolerance};
@@ -30,6 +33,7 @@ pub fn read_document(text: &str) -> Result<Document, DocumentError> {
         "design",
         "scenario",
         "tolerance",
+        "compare",
         "figures",
     ])?;
     let version = root.need("descry", "the version of the format is needed: \"descry\": 1")?;
@@ -54,6 +58,7 @@ pub fn read_document(text: &str) -> Result<Document, DocumentError> {
         design,
         scenario,
         tolerance: root.get("tolerance").map_or(Ok(Tolerance::default()), |cursor| tolerance(&cursor))?,
+        kept: root.get("compare").map_or(Ok(Vec::new()), |cursor| kept(&cursor, &sizes))?,
         figures: root.get("figures").map_or(Ok(Vec::new()), |cursor| read_figures(&cursor, &sizes))?,
     };
     Ok(document)
@@ -70,6 +75,7 @@ impl ScenarioData {
             d: Vec::new(),
             noise: Vec::new(),
             uncertainty: None,
+            free: FreeData::default(),
         }
     }
 }
@@ -87,6 +93,8 @@ pub struct Sizes {
     pub unknown: usize,
     /// Outputs.
     pub outputs: usize,
+    /// Subsystems of a network; none where the plant is given as one system.
+    pub subsystems: usize,
 }
 
 impl Sizes {
@@ -95,12 +103,13 @@ impl Sizes {
         match plant {
             PlantData::Descriptor(data) => {
                 let [e, _, b, c, d, _] = data.matrices.each_ref().map(EntryMatrix::shape);
-                Self { states: e.1, equations: e.0, inputs: b.1, unknown: d.1, outputs: c.0 }
+                Self { states: e.1, equations: e.0, inputs: b.1, unknown: d.1, outputs: c.0, subsystems: 0 }
             }
             PlantData::Network(data) => {
-                let states = data.a.shape().0 * data.Gamma.shape().0;
+                let states = data.states();
                 let outputs = data.Psi.shape().0 * data.c_G.shape().0 + data.local.len() * data.c_L.shape().0;
-                Self { states, equations: states, inputs: 0, unknown: 0, outputs }
+                let subsystems = data.Gamma.shape().0;
+                Self { states, equations: states, inputs: 0, unknown: 0, outputs, subsystems }
             }
         }
     }
@@ -285,7 +294,8 @@ pub(super) fn order_words() -> Vec<(&'static str, Order)> {
 }
 
 fn read_design(cursor: &Cursor<'_>, sizes: &Sizes) -> Result<DesignChoice, DocumentError> {
-    let object = cursor.object(&["method", "order", "poles", "scale", "seed", "lmi"])?;
+    let object =
+        cursor.object(&["method", "order", "poles", "scale", "seed", "local poles", "plugged", "lmi"])?;
     let default = DesignChoice::default();
     Ok(DesignChoice {
         method: object.get("method").map_or(Ok(default.method), |c| c.word(&method_words()))?,
@@ -293,8 +303,36 @@ fn read_design(cursor: &Cursor<'_>, sizes: &Sizes) -> Result<DesignChoice, Docum
         poles: object.get("poles").map_or(Ok(Vec::new()), |c| read_poles(&c))?,
         scale: object.get("scale").map_or(Ok(default.scale), |c| c.number_in(1e-3, 1e3))?,
         seed: object.get("seed").map_or(Ok(default.seed), |c| c.whole_in(0, u64::from(u32::MAX)))?,
+        local_poles: object.get("local poles").map_or(Ok(Vec::new()), |c| read_poles(&c))?,
+        plugged: object.get("plugged").map(|c| read_plugged(&c, sizes)).transpose()?,
         lmi: object.get("lmi").map_or(Ok(default.lmi), |c| read_lmi(&c, sizes))?,
     })
+}
+
+/// The designs that are kept beside the chosen one.
+fn kept(cursor: &Cursor<'_>, sizes: &Sizes) -> Result<Vec<KeptDesign>, DocumentError> {
+    let mut all: Vec<KeptDesign> = Vec::new();
+    for item in cursor.list(MAX_KEPT, "kept designs")? {
+        let object = item.object(&["name", "design"])?;
+        let name = object.need("name", "a name is needed, for example \"proportional\"")?;
+        if all.iter().any(|other| other.name == name.text().unwrap_or_default()) {
+            return Err(name.error("an earlier design has this name; names differ"));
+        }
+        let design =
+            object.need("design", "the design is needed, for example { \"method\": \"proportional\" }")?;
+        all.push(KeptDesign { name: name.text()?.to_owned(), design: read_design(&design, sizes)? });
+    }
+    Ok(all)
+}
+
+/// Numbers of subsystems with local measurements, from one in the document and from zero in the program.
+pub(super) fn read_plugged(cursor: &Cursor<'_>, sizes: &Sizes) -> Result<Vec<usize>, DocumentError> {
+    let mut plugged = Vec::new();
+    for item in cursor.list(MAX_SUBSYSTEMS, "subsystem numbers")? {
+        let number = usize::try_from(item.whole_in(1, sizes.subsystems.max(1) as u64)?).unwrap_or(usize::MAX);
+        plugged.push(number - 1);
+    }
+    Ok(plugged)
 }
 
 /// A list of poles: numbers, or `[real, imaginary]`.
@@ -316,7 +354,7 @@ pub(super) fn read_poles(cursor: &Cursor<'_>) -> Result<Vec<Complex64>, Document
 }
 
 fn scenario(cursor: &Cursor<'_>, sizes: &Sizes) -> Result<ScenarioData, DocumentError> {
-    let object = cursor.object(&["horizon", "samples", "x0", "u", "d", "noise", "uncertainty"])?;
+    let object = cursor.object(&["horizon", "samples", "x0", "u", "d", "noise", "uncertainty", "free"])?;
     let empty = ScenarioData::empty();
     let horizon = object.get("horizon").map_or(Ok(empty.horizon), |c| c.number_in(1e-6, MAX_HORIZON))?;
     let samples = object.get("samples").map_or(Ok(empty.samples as u64), |c| c.whole_in(2, MAX_SAMPLES))?;
@@ -329,7 +367,28 @@ fn scenario(cursor: &Cursor<'_>, sizes: &Sizes) -> Result<ScenarioData, Document
         d: signals("d", sizes.unknown, "unknown inputs (columns of D)")?,
         noise: signals("noise", sizes.outputs, "outputs (rows of C)")?,
         uncertainty: object.get("uncertainty").map(|c| uncertainty(&c, sizes)).transpose()?,
+        free: object.get("free").map_or(Ok(FreeData::default()), |c| read_free(&c, sizes))?,
     })
+}
+
+/// What drives the free states; how many there are follows from ranks, so that the simulation judges the numbers.
+pub(super) fn read_free(cursor: &Cursor<'_>, sizes: &Sizes) -> Result<FreeData, DocumentError> {
+    let object = cursor.object(&["signals", "feedback"])?;
+    let list = object.get("signals").map_or(Ok(Vec::new()), |c| read_signal_list(&c))?;
+    let feedback = object.get("feedback").map(|c| EntryMatrix::read(&c).map(|m| (c, m))).transpose()?;
+    if let Some((cursor, found)) = &feedback
+        && found.shape().1 != sizes.states
+    {
+        return Err(DocumentError::at(
+            cursor.path(),
+            format!("a {} x {} matrix", found.shape().0, found.shape().1),
+            format!(
+                "{} columns are needed: one for each state, and a row for each free variable",
+                sizes.states
+            ),
+        ));
+    }
+    Ok(FreeData { signals: list, feedback: feedback.map(|(_, matrix)| matrix) })
 }
 
 fn initial_state(cursor: &Cursor<'_>, n: usize) -> Result<Vec<Entry>, DocumentError> {
@@ -350,11 +409,16 @@ pub(super) fn read_signals(
     if !items.is_empty() && items.len() != count {
         return Err(cursor.error(format!("one signal for each of the {count} {of} is needed")));
     }
+    read_signal_list(cursor)
+}
+
+/// Any number of signals; a plain number is a constant signal.
+fn read_signal_list(cursor: &Cursor<'_>) -> Result<Vec<Signal>, DocumentError> {
     let signal = |item: &Cursor<'_>| {
         let text = if item.is_number() { item.number()?.to_string() } else { item.text()?.to_owned() };
         Signal::parse(&text).map_err(|error| item.error(format!("a signal is an expression in t: {error}")))
     };
-    items.iter().map(signal).collect()
+    cursor.list(MAX_SIDE, "signals")?.iter().map(signal).collect()
 }
 
 fn uncertainty(cursor: &Cursor<'_>, sizes: &Sizes) -> Result<UncertaintyData, DocumentError> {

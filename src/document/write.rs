@@ -6,7 +6,8 @@ use super::entry::number;
 use super::figures::figure_value;
 use super::lmi::lmi_value;
 use super::model::{
-    Coupling, DescriptorData, Document, LipschitzData, Matrix, NetworkData, PlantData, ScenarioData,
+    Coupling, DescriptorData, Document, FreeData, KeptDesign, LipschitzData, Matrix, NetworkData, PlantData,
+    ScenarioData,
 };
 use super::pretty::pretty;
 use super::{EntryMatrix, VERSION};
@@ -25,7 +26,7 @@ pub fn write_document_compact(document: &Document) -> String {
 }
 
 fn document_value(document: &Document) -> Value {
-    let Document { title, notes, paper, plant, design, scenario, tolerance, figures } = document;
+    let Document { title, notes, paper, plant, design, scenario, tolerance, kept, figures } = document;
     let mut map = Map::new();
     let mut put = |key: &str, value: Value| map.insert(key.to_owned(), value);
     put("descry", json!(VERSION));
@@ -39,6 +40,10 @@ fn document_value(document: &Document) -> Value {
     put("scenario", scenario_value(scenario));
     if *tolerance != Tolerance::default() {
         put("tolerance", tolerance_value(tolerance));
+    }
+    if !kept.is_empty() {
+        let value = |kept: &KeptDesign| json!({ "name": kept.name, "design": design_value(&kept.design) });
+        put("compare", kept.iter().map(value).collect());
     }
     if !figures.is_empty() {
         put("figures", figures.iter().map(figure_value).collect());
@@ -104,14 +109,25 @@ fn coupling_value(coupling: &Coupling) -> Value {
 }
 
 fn design_value(design: &DesignChoice) -> Value {
-    let DesignChoice { method, order, poles, scale, seed, lmi } = design;
+    let DesignChoice { method, order, poles, scale, seed, local_poles, plugged, lmi } = design;
     let mut value = json!({
         "method": method.key(), "order": order.key(), "poles": poles_value(poles), "scale": number(*scale), "seed": seed,
     });
+    if !local_poles.is_empty() {
+        value["local poles"] = poles_value(local_poles);
+    }
+    if let Some(plugged) = plugged {
+        value["plugged"] = plugged_value(plugged);
+    }
     if let Some(lmi) = lmi_value(lmi) {
         value["lmi"] = lmi;
     }
     value
+}
+
+/// Numbers of subsystems, from one.
+pub(super) fn plugged_value(plugged: &[usize]) -> Value {
+    plugged.iter().map(|i| json!(i + 1)).collect()
 }
 
 /// Poles as numbers or `[real, imaginary]`.
@@ -126,7 +142,7 @@ pub(super) fn signals_value(signals: &[Signal]) -> Value {
 }
 
 fn scenario_value(data: &ScenarioData) -> Value {
-    let ScenarioData { horizon, samples, x0, u, d, noise, uncertainty } = data;
+    let ScenarioData { horizon, samples, x0, u, d, noise, uncertainty, free } = data;
     let mut map = Map::new();
     map.insert("horizon".to_owned(), number(*horizon));
     map.insert("samples".to_owned(), json!(samples));
@@ -144,6 +160,21 @@ fn scenario_value(data: &ScenarioData) -> Value {
             "amplitude": data.amplitude.write(), "frequency": data.frequency.write(), "scale": number(data.scale),
         });
         map.insert("uncertainty".to_owned(), value);
+    }
+    if *free != FreeData::default() {
+        map.insert("free".to_owned(), free_value(free));
+    }
+    Value::Object(map)
+}
+
+/// What drives the free states.
+pub(super) fn free_value(free: &FreeData) -> Value {
+    let mut map = Map::new();
+    if !free.signals.is_empty() {
+        map.insert("signals".to_owned(), signals_value(&free.signals));
+    }
+    if let Some(feedback) = &free.feedback {
+        map.insert("feedback".to_owned(), feedback.write());
     }
     Value::Object(map)
 }

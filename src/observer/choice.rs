@@ -3,11 +3,12 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Condition, Design, DesignError, LmiChoice, decentralized, h_infinity, proportional, proportional_integral,
+    Condition, Design, DesignError, LmiChoice, decentralized, h_infinity, hierarchical, input_decoupled,
+    proportional, proportional_integral,
 };
 use crate::numerics::{Complex64, Tolerance, Watch};
 use crate::system::properties::PropertyError;
-use crate::system::{Model, TimeDomain};
+use crate::system::{Model, Network, TimeDomain};
 
 /// The design methods.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -18,24 +19,36 @@ pub enum Method {
     /// Proportional-integral observer (paper 004).
     #[default]
     ProportionalIntegral,
+    /// Input-decoupled observer of state and unknown input (paper 001).
+    InputDecoupled,
     /// H-infinity observer for Lipschitz descriptor systems (paper 002).
     HInfinity,
     /// Decentralized observers of interconnected subsystems (paper 000).
     Decentralized,
+    /// Hierarchical decentralized observer of a network (paper 003).
+    Hierarchical,
 }
 
 impl Method {
     /// All methods, in the order in which they are offered.
-    pub const ALL: [Self; 4] =
-        [Self::ProportionalIntegral, Self::Proportional, Self::HInfinity, Self::Decentralized];
+    pub const ALL: [Self; 6] = [
+        Self::ProportionalIntegral,
+        Self::Proportional,
+        Self::InputDecoupled,
+        Self::HInfinity,
+        Self::Decentralized,
+        Self::Hierarchical,
+    ];
 
     /// The key in documents.
     pub fn key(self) -> &'static str {
         match self {
             Self::Proportional => "proportional",
             Self::ProportionalIntegral => "proportional-integral",
+            Self::InputDecoupled => "input-decoupled",
             Self::HInfinity => "h-infinity-lipschitz",
             Self::Decentralized => "decentralized",
+            Self::Hierarchical => "hierarchical",
         }
     }
 
@@ -44,8 +57,21 @@ impl Method {
         match self {
             Self::Proportional => "Proportional",
             Self::ProportionalIntegral => "Proportional-integral",
+            Self::InputDecoupled => "Input-decoupled",
             Self::HInfinity => "H-infinity",
             Self::Decentralized => "Decentralized",
+            Self::Hierarchical => "Hierarchical",
+        }
+    }
+
+    /// Key of the paper that it comes from.
+    pub fn paper(self) -> &'static str {
+        match self {
+            Self::Proportional | Self::ProportionalIntegral => "004",
+            Self::InputDecoupled => "001",
+            Self::HInfinity => "002",
+            Self::Decentralized => "000",
+            Self::Hierarchical => "003",
         }
     }
 
@@ -58,6 +84,10 @@ impl Method {
             Self::ProportionalIntegral => {
                 "Estimates the state and the unknown input by an integral loop; constant unknown inputs leave no offset."
             }
+            Self::InputDecoupled => {
+                "Estimates the state and the unknown input of a system of any shape; the errors die out whatever the unknown \
+                 input does."
+            }
             Self::HInfinity => {
                 "Estimates the state of a plant with a Lipschitz nonlinearity; the effect of the disturbance d on the \
                  error is bounded by the least gamma."
@@ -66,6 +96,10 @@ impl Method {
                 "One local observer for each subsystem of a partition; the other subsystems' states are decoupled \
                  exactly or attenuated."
             }
+            Self::Hierarchical => {
+                "One global observer for what a network of identical subsystems shows as a whole, and local ones that are \
+                 plugged in and out."
+            }
         }
     }
 
@@ -73,7 +107,9 @@ impl Method {
     pub fn missing(self, model: &Model) -> Option<String> {
         let system = &model.system;
         let sentence = match self {
-            Self::Proportional | Self::ProportionalIntegral if model.lipschitz.is_some() => {
+            Self::Proportional | Self::ProportionalIntegral | Self::InputDecoupled
+                if model.lipschitz.is_some() =>
+            {
                 "observers by pole placement do not take a Lipschitz term: choose the H-infinity observer, or remove the \
                  term to design for the linear part"
             }
@@ -90,9 +126,15 @@ impl Method {
             Self::Decentralized if model.partition.is_empty() => {
                 "decentralized observers need subsystems: partition the system"
             }
-            Self::Proportional | Self::ProportionalIntegral | Self::HInfinity | Self::Decentralized => {
-                return None;
+            Self::Hierarchical if model.network.is_none() => {
+                "the hierarchical observer is for a network of identical subsystems: open or make a network"
             }
+            Self::Proportional
+            | Self::ProportionalIntegral
+            | Self::InputDecoupled
+            | Self::HInfinity
+            | Self::Decentralized
+            | Self::Hierarchical => return None,
         };
         Some(sentence.to_owned())
     }
@@ -102,7 +144,9 @@ impl Method {
         match self {
             Self::ProportionalIntegral => &[Order::Reduced, Order::Full, Order::General],
             Self::Proportional => &[Order::Reduced, Order::Full],
+            Self::InputDecoupled => &[Order::Full, Order::General],
             Self::HInfinity | Self::Decentralized => &[Order::Reduced, Order::Full, Order::Minimal],
+            Self::Hierarchical => &[Order::Full],
         }
     }
 
@@ -155,6 +199,10 @@ pub struct DesignChoice {
     pub scale: f64,
     /// Seed of the placement's random starts, so that gains are reproducible.
     pub seed: u64,
+    /// The wished poles of local observers, where a method has any besides; `poles` are those of the global one.
+    pub local_poles: Vec<Complex64>,
+    /// The subsystems whose local observer is plugged in, from zero; `None` for all that have local measurements.
+    pub plugged: Option<Vec<usize>>,
     /// Demands on designs by linear matrix inequalities.
     pub lmi: LmiChoice,
 }
@@ -167,6 +215,8 @@ impl Default for DesignChoice {
             poles: Vec::new(),
             scale: 1.0,
             seed: 1,
+            local_poles: Vec::new(),
+            plugged: None,
             lmi: LmiChoice::default(),
         }
     }
@@ -207,8 +257,13 @@ pub fn conditions(
         Method::ProportionalIntegral => {
             proportional_integral::conditions(&model.system, choice.order, tolerance)
         }
+        Method::InputDecoupled => input_decoupled::conditions(model, choice, tolerance),
         Method::HInfinity => h_infinity::conditions(model, choice, tolerance),
         Method::Decentralized => decentralized::conditions(model, choice, tolerance),
+        Method::Hierarchical => match &model.network {
+            Some(network) => hierarchical::conditions(network, tolerance),
+            None => Ok(Vec::new()),
+        },
     }
 }
 
@@ -225,20 +280,47 @@ pub fn assess(
     watch: &Watch,
 ) -> Result<Assessment, PropertyError> {
     let conditions = conditions(model, choice, tolerance)?;
-    if let Some(why) = choice.method.missing(model) {
-        return Ok(Assessment {
-            choice: choice.clone(),
-            conditions,
-            outcome: Err(DesignError::Unsuitable(why)),
-        });
-    }
-    let outcome = match choice.method {
-        Method::Proportional => proportional::design(&model.system, choice, &conditions, tolerance),
-        Method::ProportionalIntegral => {
-            proportional_integral::design(&model.system, choice, &conditions, tolerance)
-        }
-        Method::HInfinity => h_infinity::design(model, choice, &conditions, tolerance, watch),
-        Method::Decentralized => decentralized::design(model, choice, &conditions, tolerance, watch),
+    let outcome = match choice.method.missing(model) {
+        Some(why) => Err(DesignError::Unsuitable(why)),
+        None => designed(model, choice, &conditions, tolerance, watch),
     };
+    Ok(Assessment { choice: choice.clone(), conditions, outcome })
+}
+
+/// The design of a method that has the data it needs.
+fn designed(
+    model: &Model,
+    choice: &DesignChoice,
+    conditions: &[Condition],
+    tolerance: &Tolerance,
+    watch: &Watch,
+) -> Result<Design, DesignError> {
+    match choice.method {
+        Method::Proportional => proportional::design(&model.system, choice, conditions, tolerance),
+        Method::ProportionalIntegral => {
+            proportional_integral::design(&model.system, choice, conditions, tolerance)
+        }
+        Method::InputDecoupled => input_decoupled::design(model, choice, conditions, tolerance),
+        Method::HInfinity => h_infinity::design(model, choice, conditions, tolerance, watch),
+        Method::Decentralized => decentralized::design(model, choice, conditions, tolerance, watch),
+        Method::Hierarchical => match &model.network {
+            Some(network) => hierarchical::design(network, choice, conditions, tolerance)?.common(network),
+            None => Err(DesignError::Unsuitable("the plant is no network".to_owned())),
+        },
+    }
+}
+
+/// Asks the conditions of the hierarchical observer and designs it, for a network of any size: it is never expanded.
+///
+/// # Errors
+/// As [`assess`].
+pub fn assess_network(
+    network: &Network,
+    choice: &DesignChoice,
+    tolerance: &Tolerance,
+) -> Result<Assessment, PropertyError> {
+    let conditions = hierarchical::conditions(network, tolerance)?;
+    let outcome = hierarchical::design(network, choice, &conditions, tolerance)
+        .and_then(|design| design.common(network));
     Ok(Assessment { choice: choice.clone(), conditions, outcome })
 }

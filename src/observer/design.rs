@@ -4,6 +4,7 @@
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
+use super::hierarchical::HierarchicalObserver;
 use super::{Injection, LinearObserver, Synthesis, Verification};
 use crate::lmi::Infeasible;
 use crate::numerics::{Complex64, NumericsError, PlacementError};
@@ -50,6 +51,9 @@ pub struct Design {
     pub observer: LinearObserver,
     /// How the plant's nonlinearity enters it, where there is one.
     pub injection: Option<Injection>,
+    /// The global and the local observers of a network; `observer` is the same as one, or of a network that is too large
+    /// to be written as one the global observer alone, whose estimate is `z`.
+    pub hierarchical: Option<Box<HierarchicalObserver>>,
     /// What it claims of itself; a composite of local observers claims nothing beyond what each of them does.
     pub claim: Option<Claim>,
     /// How the gains were found.

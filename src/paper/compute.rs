@@ -94,7 +94,7 @@ fn execute(problem: &Problem<'_>, run: &RunRecipe, timed: bool, watch: &Watch) -
 }
 
 fn patched(scenario: &Scenario, patch: &ScenarioPatch) -> Scenario {
-    let ScenarioPatch { u, d, noise, horizon, uncertainty_scale } = patch;
+    let ScenarioPatch { u, d, noise, horizon, uncertainty_scale, free } = patch;
     let mut scenario = scenario.clone();
     if let Some(u) = u {
         scenario.u.clone_from(u);
@@ -110,6 +110,9 @@ fn patched(scenario: &Scenario, patch: &ScenarioPatch) -> Scenario {
     }
     if let (Some(uncertainty), Some(scale)) = (&mut scenario.uncertainty, uncertainty_scale) {
         uncertainty.scale = *scale;
+    }
+    if let Some(free) = free {
+        scenario.free.clone_from(free);
     }
     scenario
 }

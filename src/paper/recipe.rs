@@ -2,6 +2,7 @@
 
 use crate::numerics::Complex64;
 use crate::observer::{DesignChoice, LmiChoice, Method, Order};
+use crate::simulation::FreeVariables;
 use crate::system::Signal;
 
 /// A figure that can be computed from a problem.
@@ -45,6 +46,10 @@ pub struct DesignPatch {
     pub poles: Option<Vec<Complex64>>,
     /// Bandwidth factor, relative to the problem's own.
     pub scale: Option<f64>,
+    /// Poles of the local observers.
+    pub local_poles: Option<Vec<Complex64>>,
+    /// Subsystems whose local observer is plugged in, from zero.
+    pub plugged: Option<Vec<usize>>,
     /// Demands on a design by linear matrix inequalities, all of them at once.
     pub lmi: Option<LmiChoice>,
 }
@@ -58,6 +63,8 @@ impl DesignPatch {
             poles: self.poles.clone().unwrap_or_else(|| design.poles.clone()),
             scale: self.scale.map_or(design.scale, |scale| scale * design.scale),
             seed: design.seed,
+            local_poles: self.local_poles.clone().unwrap_or_else(|| design.local_poles.clone()),
+            plugged: self.plugged.clone().or_else(|| design.plugged.clone()),
             lmi: self.lmi.clone().unwrap_or_else(|| design.lmi.clone()),
         }
     }
@@ -76,6 +83,8 @@ pub struct ScenarioPatch {
     pub horizon: Option<f64>,
     /// Scale of the parameter uncertainty.
     pub uncertainty_scale: Option<f64>,
+    /// What drives the states that the equations leave free.
+    pub free: Option<FreeVariables>,
 }
 
 /// A panel of a figure.

@@ -177,7 +177,11 @@ fn light(model: &Model, document: &Document, method: Method, known: Option<&[Con
     let found = if let Some(known) = known {
         known
     } else {
-        let choice = DesignChoice { method, ..document.design.clone() };
+        let chosen = &document.design;
+        // an order that the method does not have stands for its usual one
+        let usual = method.orders().first().copied().unwrap_or_default();
+        let order = if method.orders().contains(&chosen.order) { chosen.order } else { usual };
+        let choice = DesignChoice { method, order, ..chosen.clone() };
         match conditions(model, &choice, &document.tolerance) {
             Ok(found) => {
                 asked = found;

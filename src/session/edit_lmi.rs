@@ -91,7 +91,10 @@ fn beginning(method: Method, time: TimeDomain) -> Option<(Order, LmiChoice)> {
             let decay = discrete.then_some(0.95);
             Some((Order::Full, LmiChoice { decay, gain: Some(10.0), ..plain }))
         }
-        Method::Proportional | Method::ProportionalIntegral => None,
+        Method::Proportional
+        | Method::ProportionalIntegral
+        | Method::InputDecoupled
+        | Method::Hierarchical => None,
     }
 }
 

@@ -1,8 +1,9 @@
 //! The list of poles: reading, moving in the plane, providing enough for an order.
 
-use crate::document::Document;
 use crate::document::limits::MAX_POLES;
+use crate::document::{Document, PlantData};
 use crate::numerics::{Complex64, conjugate_pairs, rank};
+use crate::observer::hierarchical::Hierarchy;
 use crate::observer::{Method, Order, show};
 use crate::system::TimeDomain;
 
@@ -107,15 +108,22 @@ pub(super) fn drag(document: &mut Document, index: usize, to: Complex64) {
 
 /// How many poles the chosen order takes at most, and the time domain.
 fn needed(document: &Document) -> Option<(usize, TimeDomain)> {
+    if document.design.method == Method::Hierarchical {
+        let PlantData::Network(data) = &document.plant else { return None };
+        let hierarchy = Hierarchy::of(&data.network().ok()?, &document.tolerance).ok()?;
+        return Some((hierarchy.order(), TimeDomain::Continuous));
+    }
     let system = document.system().ok()?;
     let rank = rank(&system.E, 0.0, &document.tolerance).ok()?;
     let (n, q) = (system.n_states(), system.n_unknown_inputs());
     let needed = match (document.design.method, document.design.order) {
-        (Method::Proportional, Order::Reduced) => rank.rank,
+        (Method::Proportional, Order::Reduced) | (Method::InputDecoupled, _) => rank.rank,
         (Method::Proportional, Order::Full | Order::General) => n,
         (Method::ProportionalIntegral, Order::Reduced) => rank.rank + q,
         (Method::ProportionalIntegral, Order::Full | Order::General) => n + q,
-        (_, Order::Minimal) | (Method::HInfinity | Method::Decentralized, _) => return None,
+        (_, Order::Minimal) | (Method::HInfinity | Method::Decentralized | Method::Hierarchical, _) => {
+            return None;
+        }
     };
     Some((needed, system.time))
 }
@@ -125,12 +133,22 @@ fn needed(document: &Document) -> Option<(usize, TimeDomain)> {
 /// New poles continue the list to the left of its fastest real part (discrete: between 0.3 and 0.7).
 pub(super) fn provide(document: &mut Document) {
     let Some((needed, time)) = needed(document) else { return };
-    let design = &mut document.design;
-    while design.poles.len() < needed.min(MAX_POLES) {
-        let k = design.poles.len();
+    lengthen(&mut document.design.poles, needed, time);
+    pair_up(&mut document.design.poles, needed, time == TimeDomain::Discrete);
+    if let (Method::Hierarchical, PlantData::Network(data)) = (document.design.method, &document.plant) {
+        let needed = data.a.shape().0;
+        lengthen(&mut document.design.local_poles, needed, time);
+        pair_up(&mut document.design.local_poles, needed, false);
+    }
+}
+
+/// Adds poles to a list until it has as many as are needed.
+fn lengthen(poles: &mut Vec<Complex64>, needed: usize, time: TimeDomain) {
+    while poles.len() < needed.min(MAX_POLES) {
+        let k = poles.len();
         let next = match time {
             TimeDomain::Continuous => {
-                let fastest = design.poles.iter().map(|pole| pole.re).fold(-1.0, f64::min);
+                let fastest = poles.iter().map(|pole| pole.re).fold(-1.0, f64::min);
                 let next = fastest * 1.2;
                 // two significant digits are enough for a proposal
                 let unit = 10_f64.powf(next.abs().log10().floor() - 1.0);
@@ -138,9 +156,8 @@ pub(super) fn provide(document: &mut Document) {
             }
             TimeDomain::Discrete => 0.3 + 0.05 * (k % 9) as f64,
         };
-        design.poles.push(Complex64::from(next));
+        poles.push(Complex64::from(next));
     }
-    pair_up(&mut document.design.poles, needed, time == TimeDomain::Discrete);
 }
 
 /// Where the first `needed` poles would cut a pair, swaps the pair's first member with the next real pole.

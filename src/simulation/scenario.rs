@@ -30,15 +30,18 @@ pub struct Scenario {
     pub noise: Vec<Signal>,
     /// Time-varying uncertainty of `A`.
     pub uncertainty: Option<Uncertainty>,
+    /// What drives the states that the equations leave free.
+    pub free: FreeVariables,
 }
 
 impl Scenario {
-    /// Simulates the plant with the observers beside it; `watch` can cancel it.
+    /// Simulates a plant of any shape with the observers beside it; `watch` can cancel it.
     ///
-    /// Free variables of a plant with fewer equations than states stay zero; see [`Self::run_free`].
+    /// A plant with as many equations as states has to be of index 1 and has no free variables; any other is completed
+    /// as [`WidePlant`](super::WidePlant) says. What is free and what is corrected stands in the trajectory's remarks.
     ///
     /// # Errors
-    /// As [`simulate_observed`] and [`Self::run_free`].
+    /// As [`simulate_observed`]; [`SimulationError::Overdetermined`] for equations that contradict what is given.
     pub fn run(
         &self,
         model: &Model,
@@ -46,29 +49,11 @@ impl Scenario {
         tolerance: &Tolerance,
         watch: &Watch,
     ) -> Result<Trajectory, SimulationError> {
-        self.run_free(model, observers, &FreeVariables::default(), tolerance, watch)
-    }
-
-    /// Simulates a plant of any shape: what its equations leave free follows `free`.
-    ///
-    /// A plant with as many equations as states has to be of index 1 and has no free variables; any other is completed
-    /// as [`WidePlant`](super::WidePlant) says. What is free and what is corrected stands in the trajectory's remarks.
-    ///
-    /// # Errors
-    /// As [`simulate_observed`]; [`SimulationError::Overdetermined`] for equations that contradict what is given.
-    pub fn run_free(
-        &self,
-        model: &Model,
-        observers: &[Observed<'_>],
-        free: &FreeVariables,
-        tolerance: &Tolerance,
-        watch: &Watch,
-    ) -> Result<Trajectory, SimulationError> {
         if model.system.E.is_square() {
             let given = model.system.n_unknown_inputs();
             return self.run_with(model, observers, (given, &[]), tolerance, watch);
         }
-        wide_run::run(self, model, observers, free, tolerance, watch)
+        wide_run::run(self, model, observers, tolerance, watch)
     }
 
     /// Simulates a square plant whose unknown inputs are `given` signals of the scenario and, behind them, `more`.

@@ -137,7 +137,7 @@ impl WidePlant {
         };
         let widen = |term: &LipschitzTerm| widened(&term.clone().checked(&model.system)?, nv + nd, q);
         let lipschitz = model.lipschitz.as_ref().map(widen).transpose()?;
-        Ok(Model { system, lipschitz, partition: Vec::new() })
+        Ok(Model { lipschitz, ..Model::from(system) })
     }
 
     /// The uncertainty of the completed plant: what is added does not vary.

@@ -5,10 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::joint::check;
 use super::run::check_vector;
 use super::scenario::values;
-use super::{
-    FreeVariables, InitialState, Observed, ObserverTrajectory, Scenario, SimulationError, Trajectory,
-    WidePlant,
-};
+use super::{InitialState, Observed, ObserverTrajectory, Scenario, SimulationError, Trajectory, WidePlant};
 use crate::numerics::{Tolerance, Watch, stack};
 use crate::observer::{Injection, LinearObserver};
 use crate::system::Model;
@@ -18,7 +15,6 @@ pub(super) fn run(
     scenario: &Scenario,
     model: &Model,
     observers: &[Observed<'_>],
-    free: &FreeVariables,
     tolerance: &Tolerance,
     watch: &Watch,
 ) -> Result<Trajectory, SimulationError> {
@@ -34,7 +30,7 @@ pub(super) fn run(
     let mut u0 = DVector::zeros(system.n_inputs());
     values(&scenario.u, 0.0, u0.as_mut_slice());
     let wide = WidePlant::new(model, &scenario.x0, &u0, tolerance)?;
-    let completed = wide.completed(model, free)?;
+    let completed = wide.completed(model, &scenario.free)?;
     let extended: Vec<(LinearObserver, Option<Injection>)> =
         observers.iter().map(|observed| estimating_both(observed, q)).collect();
     let extended: Vec<Observed<'_>> = extended
@@ -49,10 +45,12 @@ pub(super) fn run(
         uncertainty: scenario.uncertainty.as_ref().map(|given| wide.uncertain(given)),
         ..scenario.clone()
     };
-    let found = square.run_with(&completed, &extended, (q, &free.signals), tolerance, watch);
+    let found = square.run_with(&completed, &extended, (q, &scenario.free.signals), tolerance, watch);
     let mut trajectory = found.map_err(|error| match error {
         // the completed plant is of index 1 unless the feedback spoils it
-        SimulationError::NotIndexOne { .. } if free.feedback.is_some() => SimulationError::FreeFeedback,
+        SimulationError::NotIndexOne { .. } if scenario.free.feedback.is_some() => {
+            SimulationError::FreeFeedback
+        }
         other => other,
     })?;
     trajectory.remarks.extend(remarks(&wide, &trajectory, n));

@@ -1,6 +1,6 @@
 //! Everything that is known of a plant: its matrices, its nonlinearity, its subsystems.
 
-use super::{DescriptorSystem, LipschitzTerm, Subsystem};
+use super::{DescriptorSystem, LipschitzTerm, Network, Subsystem};
 
 /// A descriptor system with what some methods need besides its matrices.
 ///
@@ -15,10 +15,19 @@ pub struct Model {
     pub lipschitz: Option<LipschitzTerm>,
     /// The subsystems; empty when the system is not partitioned.
     pub partition: Vec<Subsystem>,
+    /// The network whose matrices these are, when the plant is given as one.
+    pub network: Option<Network>,
 }
 
 impl From<DescriptorSystem> for Model {
     fn from(system: DescriptorSystem) -> Self {
-        Self { system, lipschitz: None, partition: Vec::new() }
+        Self { system, lipschitz: None, partition: Vec::new(), network: None }
+    }
+}
+
+impl From<Network> for Model {
+    /// Expands the network: for small ones only.
+    fn from(network: Network) -> Self {
+        Self { network: Some(network.clone()), ..Self::from(network.expanded()) }
     }
 }

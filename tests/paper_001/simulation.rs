@@ -11,7 +11,16 @@ fn signals(texts: &[&str]) -> Vec<Signal> {
 }
 
 fn scenario(horizon: f64, samples: usize, x0: DVector<f64>) -> Scenario {
-    Scenario { horizon, samples, x0, u: Vec::new(), d: Vec::new(), noise: Vec::new(), uncertainty: None }
+    Scenario {
+        horizon,
+        samples,
+        x0,
+        u: Vec::new(),
+        d: Vec::new(),
+        noise: Vec::new(),
+        uncertainty: None,
+        free: FreeVariables::default(),
+    }
 }
 
 /// The paper's example from the reference initial state.
@@ -30,7 +39,8 @@ fn run(
     observers: &[&Design],
 ) -> Result<Trajectory, SimulationError> {
     let observed: Vec<_> = observers.iter().map(|design| (*design).into()).collect();
-    scenario.run_free(&system.clone().into(), &observed, free, &Tolerance::default(), &Watch::none())
+    let scenario = Scenario { free: free.clone(), ..scenario.clone() };
+    scenario.run(&system.clone().into(), &observed, &Tolerance::default(), &Watch::none())
 }
 
 fn following(texts: &[&str]) -> FreeVariables {
@@ -234,8 +244,9 @@ fn uncertainty_and_nonlinearity_of_wide_plants_count() {
         constant: 1.0,
     });
     let all = scenario(2.0, 21, dvector![0.5, 0.0]);
-    let found =
-        all.run_free(&model, &[], &following(&["sin(t)"]), &Tolerance::default(), &Watch::none()).unwrap();
+    let found = Scenario { free: following(&["sin(t)"]), ..all }
+        .run(&model, &[], &Tolerance::default(), &Watch::none())
+        .unwrap();
     for (i, t) in found.t.iter().enumerate() {
         let expected = 1.0 / (1.0 + t.exp());
         assert!((found.x[(0, i)] - expected).abs() < 1e-7, "t = {t}: {}", found.x[(0, i)]);

@@ -44,6 +44,14 @@ fn equations(method: Method) -> &'static str {
             "Observer: z' = F z + (L1 + L2) y + J u + T1 N f_hat, f_hat' = L3 (y - C x_hat), x_hat = M1 z + T2 y, where \
              y = [-B1 u; y*] holds the algebraic equations and the measurements."
         }
+        Method::InputDecoupled => {
+            "Observer: z' = H z + J1 u + J2 y, x_hat = K z + T1 u + T2 y, d_hat = G z + Q1 u + Q2 y; the errors are K e^(H t) e0 \
+             and G e^(H t) e0 whatever the unknown input does."
+        }
+        Method::Hierarchical => {
+            "Global observer: z_hat' = (alpha_z - H gamma_z) z_hat + H y_G; each local one: x_hat_i' = (a - h_i c_L) x_hat_i + \
+             beta_i z_hat + h_i y_i."
+        }
         Method::HInfinity => {
             "Observer: z' = N z + J y + H u + T G f(x_hat), x_hat = P z - Q Phi B u + F y - Q Phi G f(x_hat): the estimate \
              stands on both sides and is found by iteration, which converges by the guarantee."
@@ -52,15 +60,6 @@ fn equations(method: Method) -> &'static str {
             "Each subsystem: xi' = N xi + M u + J z, x_hat = P xi - Q Phi B u + F z (in discrete time xi[k+1]), where z are \
              its own outputs."
         }
-    }
-}
-
-/// The paper that a method comes from.
-fn paper(method: Method) -> &'static str {
-    match method {
-        Method::Proportional | Method::ProportionalIntegral => "004",
-        Method::HInfinity => "002",
-        Method::Decentralized => "000",
     }
 }
 
@@ -94,7 +93,7 @@ fn named_matrix(ui: &mut Ui, method: Method, matrix: &NamedMatrix) {
     );
     // a local observer's matrix carries the name of its subsystem: `N (first)`
     let letter = matrix.name.split(" (").next().unwrap_or_default();
-    for erratum in errata(paper(method)).filter(|erratum| erratum.concerns == letter) {
+    for erratum in errata(method.paper()).filter(|erratum| erratum.concerns == letter) {
         formula::remark(
             ui,
             &format!(

@@ -69,6 +69,7 @@ pub fn design(
         matrices: matrices(&locals),
         observer: composite(&locals),
         injection: None,
+        hierarchical: None,
         claim: None,
         synthesis: Synthesis::Lmi(locals.into_iter().map(|local| local.result).collect()),
         verification,

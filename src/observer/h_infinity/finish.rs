@@ -63,6 +63,7 @@ pub(super) fn finish(
         matrices: named(plant, family, &matrices, &solved.X),
         observer,
         injection: (!plant.f.is_empty()).then_some(injection),
+        hierarchical: None,
         claim: Some(claim),
         synthesis: Synthesis::Lmi(vec![result]),
         verification,

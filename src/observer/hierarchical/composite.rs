@@ -72,3 +72,25 @@ pub fn composite(network: &Network, observer: &HierarchicalObserver) -> Result<L
         P,
     })
 }
+
+/// The global observer alone, of a network too large to be written as one; its estimate is `z`.
+///
+/// ```text
+/// z_hat' = (alpha_z - H gamma_z) z_hat + H y_G
+/// ```
+pub(super) fn global_alone(observer: &HierarchicalObserver) -> LinearObserver {
+    let HierarchicalObserver { hierarchy, global, .. } = observer;
+    let (order, outputs) = global.H.shape();
+    let none = |rows, columns| DMatrix::zeros(rows, columns);
+    LinearObserver {
+        N: hierarchy.alpha_z() - &global.H * hierarchy.gamma_z(),
+        L: global.H.clone(),
+        H: none(order, 0),
+        P: DMatrix::identity(order, order),
+        V: none(order, outputs),
+        W: none(order, 0),
+        Q: none(0, order),
+        R: none(0, outputs),
+        S: none(0, 0),
+    }
+}

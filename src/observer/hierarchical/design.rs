@@ -2,9 +2,11 @@
 #![expect(non_snake_case, reason = "matrix letters follow paper 003")]
 
 use nalgebra::DMatrix;
+use serde::{Deserialize, Serialize};
 
+use super::composite::global_alone;
 use super::verify::verify_network;
-use super::{Hierarchy, composite};
+use super::{Hierarchy, LARGEST_COMPOSITE, composite};
 use crate::numerics::{
     Complex64, Placement, PlacementError, PlacementOptions, StabilityRegion, Tolerance, observable_quotient,
     place_observer,
@@ -20,7 +22,7 @@ use crate::system::Network;
 /// ```text
 /// z_hat' = (alpha_z - H gamma_z) z_hat + H y_G
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GlobalObserver {
     /// The gain, nu mu x P p.
     pub H: DMatrix<f64>,
@@ -33,7 +35,7 @@ pub struct GlobalObserver {
 /// ```text
 /// x_hat_i' = (a - h c_L) x_hat_i + beta_i z_hat + h y_i
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LocalObserver {
     /// The gain, n x p.
     pub h: DMatrix<f64>,
@@ -42,7 +44,7 @@ pub struct LocalObserver {
 }
 
 /// The global observer with the local observers that are plugged in at present.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HierarchicalObserver {
     /// What the global observer estimates, and how it drives the local ones.
     pub hierarchy: Hierarchy,
@@ -138,17 +140,16 @@ pub fn design_global(
 
 /// Designs a local observer, whatever the global one is: `h` places the poles of `a - h c_L`.
 ///
-/// The wished poles are the first ones of `local_poles`, times `choice.scale`.
+/// The wished poles are the first ones of `choice.local_poles`, times `choice.scale`.
 ///
 /// # Errors
 /// As [`design_global`].
 pub fn design_local(
     network: &Network,
-    local_poles: &[Complex64],
     choice: &DesignChoice,
     tolerance: &Tolerance,
 ) -> Result<LocalObserver, DesignError> {
-    let placement = place(&network.a, &network.c_L, local_poles, choice, tolerance)
+    let placement = place(&network.a, &network.c_L, &choice.local_poles, choice, tolerance)
         .map_err(|error| named("local", error))?;
     Ok(LocalObserver { h: placement.gain.clone(), placement })
 }
@@ -201,16 +202,24 @@ pub struct HierarchicalDesign {
 }
 
 impl HierarchicalDesign {
-    /// The design in the common form, with the composite observer of all that is plugged in.
+    /// The design in the common form, with the composite observer of all that is plugged in, or the global observer alone
+    /// when the network is too large for that.
     ///
     /// # Errors
     /// As [`composite`].
     pub fn common(&self, network: &Network) -> Result<Design, DesignError> {
+        let states = network.a.nrows() * network.n_subsystems();
+        let observer = if states > LARGEST_COMPOSITE {
+            global_alone(&self.observer)
+        } else {
+            composite(network, &self.observer)?
+        };
         Ok(Design {
             title: self.title.clone(),
             matrices: self.matrices.clone(),
-            observer: composite(network, &self.observer)?,
+            observer,
             injection: None,
+            hierarchical: Some(Box::new(self.observer.clone())),
             claim: None,
             synthesis: Synthesis::Poles(Box::new(self.observer.global.placement.clone())),
             verification: self.verification.clone(),
@@ -219,10 +228,11 @@ impl HierarchicalDesign {
     }
 }
 
-/// Designs the global observer and plugs the same local observer into every subsystem with local measurements.
+/// Designs the global observer and plugs the same local observer into the chosen subsystems, or into all that have local
+/// measurements.
 ///
-/// `choice.poles` are the poles of the global observer, `local_poles` those of the local ones; `choice.scale` stretches
-/// both.
+/// `choice.poles` are the poles of the global observer, `choice.local_poles` those of the local ones; `choice.scale`
+/// stretches both.
 ///
 /// # Errors
 /// The first needed condition that fails, poles that do not fit, or a decomposition that fails its check.
@@ -232,7 +242,6 @@ impl HierarchicalDesign {
 pub fn design(
     network: &Network,
     choice: &DesignChoice,
-    local_poles: &[Complex64],
     conditions: &[Condition],
     tolerance: &Tolerance,
 ) -> Result<HierarchicalDesign, DesignError> {
@@ -247,10 +256,11 @@ pub fn design(
     let global = design_global(&hierarchy, choice, tolerance)?;
     let mut notes = notes("global", &global.placement, choice.poles.len());
     let mut observer = HierarchicalObserver::new(hierarchy, global);
-    if !network.local.is_empty() {
-        let local = design_local(network, local_poles, choice, tolerance)?;
-        notes.extend(self::notes("local", &local.placement, local_poles.len()));
-        for &subsystem in &network.local {
+    let plugged = choice.plugged.as_ref().unwrap_or(&network.local);
+    if !plugged.is_empty() {
+        let local = design_local(network, choice, tolerance)?;
+        notes.extend(self::notes("local", &local.placement, choice.local_poles.len()));
+        for &subsystem in plugged {
             observer.plug_in(network, subsystem, local.clone())?;
         }
     }

@@ -2,6 +2,7 @@
 #![expect(non_snake_case, reason = "matrix letters follow paper 003")]
 
 use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
 
 use super::bases::{row_space, shown_part};
 use crate::numerics::{NumericsError, RankDecision, Tolerance};
@@ -74,7 +75,7 @@ impl From<PropertyError> for HierarchyError {
 ///
 /// # Source
 /// Paper 003, equations (7)-(12), Theorem 1 (which does not need a diagonalisable `Gamma`).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Hierarchy {
     /// Basis of the row space of `Gamma`, N x nu.
     pub N: DMatrix<f64>,

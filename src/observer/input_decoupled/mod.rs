@@ -92,6 +92,7 @@ pub fn design(
         matrices: named(&at, reduction, theorem, &placement.gain, general),
         observer,
         injection: None,
+        hierarchical: None,
         claim: Some(claim),
         synthesis: Synthesis::Poles(Box::new(placement)),
         verification,

@@ -191,6 +191,7 @@ pub(super) fn finish(
         matrices,
         observer,
         injection: None,
+        hierarchical: None,
         claim: Some(claim),
         synthesis,
         verification,
