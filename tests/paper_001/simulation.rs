@@ -48,7 +48,7 @@ fn following(texts: &[&str]) -> FreeVariables {
 }
 
 /// `e^M` by Taylor series after scaling, apart from the product's own exponential.
-fn exponential(m: &DMatrix<f64>) -> DMatrix<f64> {
+pub(crate) fn exponential(m: &DMatrix<f64>) -> DMatrix<f64> {
     let (mut halvings, mut size) = (10, m.norm());
     while size > 1.0 {
         (halvings, size) = (halvings + 1, size / 2.0);
