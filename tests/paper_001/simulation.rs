@@ -89,7 +89,7 @@ fn the_example_runs_as_in_the_reference() {
             assert!(off < 1e-6, "{name} at t = {t}: off by {off:.1e}");
         }
     }
-    assert!(found.remarks.iter().any(|r| r.contains("v1 = +0.7071 x3 -0.7071 x4")), "{:?}", found.remarks);
+    assert!(found.remarks.iter().any(|r| r.contains("v1 = 0.7071 x3 - 0.7071 x4")), "{:?}", found.remarks);
 }
 
 /// Largest distance of the errors from `K e^(H t) e0` and `G e^(H t) e0`, relative to the initial error.
