@@ -8,7 +8,7 @@ mod recipe;
 pub mod standard;
 
 pub use compute::{Problem, compute_figure};
-pub use errata::{Erratum, errata};
+pub use errata::{Erratum, PrintedMatrix, errata, papers_with_errata, printed};
 pub use figure::{Axis, FigureSpec, Panel, Role, Series};
 pub use palette::{PALETTE, colour};
 pub use recipe::{
