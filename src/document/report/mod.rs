@@ -6,6 +6,7 @@
 
 mod condition;
 mod design;
+mod errata;
 mod figures;
 mod properties;
 mod trajectory;
@@ -18,6 +19,7 @@ use super::model::Document;
 use super::pretty::pretty;
 use crate::numerics::Complex64;
 use crate::observer::{Assessment, Condition};
+use crate::paper::Erratum;
 use crate::simulation::Trajectory;
 use crate::system::{DescriptorSystem, Model, TimeDomain};
 
@@ -64,6 +66,12 @@ pub fn figures_report(document: &Document, figures: &[WrittenFigure]) -> String 
     put_command(&mut map, "figures", document);
     map.insert("figures".to_owned(), figures.iter().map(figures::figure).collect());
     pretty(&Value::Object(map))
+}
+
+/// Report of `descry errata`: misprints with what proves them.
+pub fn errata_report(found: &[&Erratum]) -> String {
+    let listed: Vec<Value> = found.iter().map(|erratum| errata::erratum(erratum)).collect();
+    pretty(&json!({ "descry_report": REPORT_VERSION, "command": "errata", "errata": listed }))
 }
 
 fn put_command(map: &mut Map<String, Value>, command: &str, document: &Document) {
