@@ -114,7 +114,8 @@ fn unseen(witness: &Witness) -> String {
     match witness.s {
         Some(s) => format!("The mode s = {} along {names} is seen by no sensor.", show_number(s)),
         None if starts("equation") => {
-            format!("A combination of {names} determines neither an algebraic state nor an unknown input.")
+            let of = if names.contains(", ") { "A combination of " } else { "The " };
+            format!("{of}{names} determines neither an algebraic state nor an unknown input.")
         }
         None if starts("d") => format!("A sudden change along {names} is not seen at once by any sensor."),
         None => format!("An impulse along {names} is seen by no sensor."),
@@ -218,7 +219,7 @@ mod tests {
         assert_eq!(unseen(&witness(None, "x1")), "An impulse along x1 is seen by no sensor.");
         assert!(unseen(&witness(None, "d1")).starts_with("A sudden change along d1"), "an unknown input");
         assert!(
-            unseen(&witness(None, "equation 3")).contains("equation 3 determines neither"),
+            unseen(&witness(None, "equation 3")).starts_with("The equation 3 determines neither"),
             "an equation"
         );
     }

@@ -96,8 +96,8 @@ impl Ask<'_> {
                 result.summary =
                     format!("{}; {} nowhere but in differential equations", result.summary, stand(&hidden));
                 result.remedies.push(format!(
-                    "{} in no algebraic equation and in no output, and without an integrator only such an input can be \
-                     estimated: choose the proportional-integral observer, or measure something that contains it (a row of F)",
+                    "{} in no algebraic equation and in no output, and there it takes an integrator to find it: choose the \
+                     proportional-integral observer, or measure something that contains it (a row of F)",
                     stand(&hidden)
                 ));
             }
