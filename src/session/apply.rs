@@ -113,7 +113,11 @@ fn keeps_meaning(field: &Field, document: &Document, resized: bool) -> bool {
     let lmi = &document.design.lmi;
     match field {
         Field::Poles => true,
-        Field::Cell(_) | Field::Initial(_) | Field::Signal(..) | Field::Uncertainty(..) => !resized,
+        Field::Cell(_)
+        | Field::Initial(_)
+        | Field::Signal(..)
+        | Field::Uncertainty(..)
+        | Field::FreeSignal(_) => !resized,
         Field::Rows(subsystem, row, column) => {
             let there = |rows: &nalgebra::DMatrix<f64>| *row < rows.nrows() && *column < rows.ncols();
             !resized && lmi.rows.get(*subsystem).is_some_and(there)
@@ -122,7 +126,6 @@ fn keeps_meaning(field: &Field, document: &Document, resized: bool) -> bool {
         Field::Lipschitz(..) => !resized && nonlinearity.is_some(),
         Field::Component(index) => nonlinearity.is_some_and(|lipschitz| *index < lipschitz.f.len()),
         Field::LipschitzConstant => nonlinearity.is_some(),
-        Field::FreeSignal(_) => !resized,
         Field::FreeFeedback(..) => !resized && document.scenario.free.feedback.is_some(),
     }
 }
