@@ -21,7 +21,7 @@ pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Wid
     if let Some(figure) = shown_figure(session, derived) {
         exports(ui, session, figure, out);
     }
-    scenario::show(ui, session, widgets, out);
+    scenario::show(ui, session, derived, widgets, out);
     ui.separator();
     let tab = session.view().tab;
     if tab == Tab::Figures {

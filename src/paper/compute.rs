@@ -48,7 +48,12 @@ pub fn compute_figure(
             notes.push(format!("{}: the design is not verified", run.name));
         }
         if let Some(trajectory) = &run.trajectory {
-            notes.extend(trajectory.note.iter().chain(&trajectory.remarks).cloned());
+            for note in trajectory.note.iter().chain(&trajectory.remarks) {
+                // runs of one plant have the same free states: said once
+                if !notes.contains(note) {
+                    notes.push(note.clone());
+                }
+            }
         }
     }
     let mut panels = Vec::new();

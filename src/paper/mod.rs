@@ -8,7 +8,7 @@ mod recipe;
 pub mod standard;
 
 pub use compute::{Problem, compute_figure};
-pub use errata::{Erratum, errata};
+pub use errata::{Erratum, PrintedMatrix, errata, papers_with_errata, printed};
 pub use figure::{Axis, FigureSpec, Panel, Role, Series};
 pub use palette::{PALETTE, colour};
 pub use recipe::{
@@ -29,12 +29,19 @@ pub struct Example {
 }
 
 /// All examples, the first of which opens when nothing else is asked for.
-pub const EXAMPLES: [Example; 6] = [
+pub const EXAMPLES: [Example; 7] = [
     Example {
         key: "proportional-integral",
         title: "Koenig and Mammar: unknown input by an integral loop",
         teaches: "Nine figures of the paper: how fast poles catch an unknown input, and what that costs.",
         text: include_str!("../../assets/examples/proportional-integral.json"),
+    },
+    Example {
+        key: "input-decoupled",
+        title: "Input-decoupled observer of a system with free states",
+        teaches: "More states than equations, and an unknown input that jumps: its estimate jumps with it, and no error ever \
+                  sees it.",
+        text: include_str!("../../assets/examples/input-decoupled.json"),
     },
     Example {
         key: "h-infinity-lipschitz",
@@ -83,11 +90,16 @@ pub struct Paper {
 }
 
 /// The papers that are implemented.
-pub const PAPERS: [Paper; 3] = [
+pub const PAPERS: [Paper; 4] = [
     Paper {
         key: "000",
         citation: "\"Decentralized observers for large scale interconnected singular systems\", conference paper on the \
                    parameterisation of generalized Sylvester equations",
+    },
+    Paper {
+        key: "001",
+        citation: "\"Input-decoupled observer design for linear descriptor systems with unknown inputs\", conference paper on \
+                   systems that are not square",
     },
     Paper {
         key: "002",

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::free_report::FreeReport;
 use crate::document::Document;
 use crate::numerics::{Complex64, Tolerance, Watch};
 use crate::observer::{Assessment, Condition, DesignChoice, Method, Verdict, assess, conditions};
@@ -27,6 +28,8 @@ pub struct Analysis {
     pub simulation: Result<Simulation, String>,
     /// Frequency responses of the design.
     pub bode: Option<FigureSpec>,
+    /// What the equations leave free, for a plant that is not square.
+    pub free: Option<FreeReport>,
 }
 
 /// A property of the system with its evidence in words.
@@ -109,10 +112,14 @@ pub fn analyse(document: &Document, watch: &Watch) -> Option<Analysis> {
     if !watch.go_on(0.8, "simulation") {
         return None;
     }
-    let simulation = simulation(document, &model, assessment.as_ref(), &watch.part(0.8, 1.0));
+    let free = FreeReport::new(document, &model);
+    let simulation = simulation(document, &model, assessment.as_ref(), &watch.part(0.8, 1.0)).map(|found| {
+        let notes = FreeReport::without_own(free.as_ref(), found.notes);
+        Simulation { notes, ..found }
+    });
     let design = assessment.as_ref().ok().and_then(|a| a.outcome.as_ref().ok());
     let bode = design.and_then(|design| standard::bode(system, design));
-    Some(Analysis { properties, plant_eigenvalues, methods, assessment, simulation, bode })
+    Some(Analysis { properties, plant_eigenvalues, methods, assessment, simulation, bode, free })
 }
 
 impl Analysis {
@@ -124,6 +131,7 @@ impl Analysis {
             assessment: Err(why.to_owned()),
             simulation: Err(why.to_owned()),
             bode: None,
+            free: None,
         }
     }
 

@@ -1,11 +1,12 @@
 //! Carrying out an edit: the change, what follows from it, drafts, and the step of the history.
 
 use super::command::Edit;
+use super::edit_free::FreeEdit;
 use super::follow::follow;
 use super::model_edits::{GivenPart, LipschitzEdit, LmiEdit, PartitionEdit};
 use super::state::{Draft, Field, Message, Session};
 use super::update::{Edited, replace};
-use super::{edit_lipschitz, edit_lmi, edit_partition, edit_plant, edit_scenario, poles};
+use super::{edit_free, edit_lipschitz, edit_lmi, edit_partition, edit_plant, edit_scenario, poles};
 use crate::document::{Document, Entry, EntryMatrix, PlantData, limits};
 
 /// Carries out an edit as one step, or as a part of the drag that it belongs to.
@@ -18,6 +19,7 @@ pub(super) fn apply(session: &mut Session, edit: Edit) {
         Edit::Fill { matrix, .. } => Some(*matrix),
         _ => None,
     };
+    let fed_back = matches!(edit, Edit::Free(FreeEdit::Feedback(_) | FreeEdit::Paste(_)));
     let waiting = if ends { waiting_fields(&edit) } else { None };
     let mut document = (*session.document).clone();
     let (edited, told) = changed(&mut document, &session.document, edit);
@@ -32,6 +34,9 @@ pub(super) fn apply(session: &mut Session, edit: Edit) {
                 session
                     .drafts
                     .retain(|field, _| !matches!(field, Field::Cell(cell) if cell.matrix == matrix));
+            }
+            if fed_back {
+                session.drafts.retain(|field, _| !matches!(field, Field::FreeFeedback(..)));
             }
             replace(session, document, drag.map(|(key, _)| key));
             if !told.is_empty() {
@@ -117,6 +122,8 @@ fn keeps_meaning(field: &Field, document: &Document, resized: bool) -> bool {
         Field::Lipschitz(..) => !resized && nonlinearity.is_some(),
         Field::Component(index) => nonlinearity.is_some_and(|lipschitz| *index < lipschitz.f.len()),
         Field::LipschitzConstant => nonlinearity.is_some(),
+        Field::FreeSignal(_) => !resized,
+        Field::FreeFeedback(..) => !resized && document.scenario.free.feedback.is_some(),
     }
 }
 
@@ -177,6 +184,8 @@ fn typed_field(edit: &Edit) -> Option<Field> {
         }
         Edit::Lipschitz(LipschitzEdit::Component { index, .. }) => Some(Field::Component(*index)),
         Edit::Lipschitz(LipschitzEdit::Constant(_)) => Some(Field::LipschitzConstant),
+        Edit::Free(FreeEdit::Signal { index, .. }) => Some(Field::FreeSignal(*index)),
+        Edit::Free(FreeEdit::Cell { row, column, .. }) => Some(Field::FreeFeedback(*row, *column)),
         _ => None,
     }
 }
@@ -234,6 +243,7 @@ fn change(document: &mut Document, edit: Edit) -> Edited {
         }
         Edit::Partition(edit) => return edit_partition::change(document, edit),
         Edit::Lipschitz(edit) => return edit_lipschitz::change(document, edit),
+        Edit::Free(edit) => return edit_free::change(document, edit),
         Edit::Initial { .. }
         | Edit::Signal { .. }
         | Edit::Horizon(_)

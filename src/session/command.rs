@@ -1,5 +1,6 @@
 //! Every intent of a user, as data: the menu, the shortcuts and the tests are made of these.
 
+use super::edit_free::FreeEdit;
 use super::model_edits::{LipschitzEdit, LmiEdit, PartitionEdit};
 use crate::document::Matrix;
 use crate::numerics::Complex64;
@@ -146,6 +147,8 @@ pub enum Edit {
     Partition(PartitionEdit),
     /// The nonlinearity.
     Lipschitz(LipschitzEdit),
+    /// What drives the states that the equations leave free.
+    Free(FreeEdit),
 }
 
 /// A cell of a matrix, rows and columns from zero.

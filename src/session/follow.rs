@@ -2,8 +2,8 @@
 
 use nalgebra::DMatrix;
 
-use super::edit_lipschitz;
 use super::edit_lmi::{fit_given, follow_time, time};
+use super::{edit_free, edit_lipschitz};
 use crate::document::{Document, EntryMatrix, Matrix, PlantData, Sizes};
 use crate::observer::Method;
 use crate::system::{Subsystem, check_partition};
@@ -16,6 +16,7 @@ pub(super) fn follow(document: &mut Document, before: &Document) -> Result<Vec<S
     let mut gone = Vec::new();
     gone.extend(follow_time(document, time(before)));
     gone.extend(edit_lipschitz::follow_sizes(document));
+    edit_free::follow_sizes(document);
     gone.extend(partition(document, before)?);
     gone.extend(rows(document, before));
     decoupled(document);

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::analysis::{Analysis, analyse};
+use super::free_report::FreeReport;
 use crate::document::read_document;
 use crate::numerics::Watch;
 use crate::paper::{FigureSpec, Problem, compute_figure};
@@ -96,5 +97,7 @@ fn figure(document: &crate::document::Document, id: &str, watch: &Watch) -> Resu
         scenario: &scenario,
         tolerance: &document.tolerance,
     };
-    compute_figure(&problem, recipe, watch)
+    let mut figure = compute_figure(&problem, recipe, watch)?;
+    figure.notes = FreeReport::without_own(FreeReport::new(document, &model).as_ref(), figure.notes);
+    Ok(figure)
 }

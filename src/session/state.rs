@@ -43,6 +43,10 @@ pub enum Field {
     Component(usize),
     /// The Lipschitz constant.
     LipschitzConstant,
+    /// The signal of a free variable.
+    FreeSignal(usize),
+    /// An entry of the feedback of the free variables: row, column.
+    FreeFeedback(usize, usize),
 }
 
 /// A text that was not understood; the last good value stays in force.

@@ -20,6 +20,7 @@ mod singularity;
 mod trajectory;
 mod uncertainty;
 mod wide;
+mod wide_feedback;
 mod wide_run;
 
 pub use crate::numerics::integrate::{Signals, Silence};
@@ -33,3 +34,4 @@ pub use scenario::Scenario;
 pub use trajectory::{Method, ObserverTrajectory, Trajectory, rms};
 pub use uncertainty::Uncertainty;
 pub use wide::{FreeVariables, WidePlant};
+pub use wide_feedback::{BoundingFeedback, FeedbackError, FreeMotion, MOST_FED_BACK};

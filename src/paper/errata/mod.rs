@@ -2,7 +2,12 @@
 
 mod decentralized;
 mod h_infinity;
+mod hierarchical;
+mod input_decoupled;
+mod printed;
 mod proportional_integral;
+
+pub use printed::{PrintedMatrix, printed};
 
 /// A misprint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,8 +31,19 @@ pub fn errata(paper: &str) -> impl Iterator<Item = &'static Erratum> {
     ALL.iter().copied().flatten().filter(move |erratum| erratum.paper == paper)
 }
 
+/// Keys of the papers in which misprints were found.
+pub fn papers_with_errata() -> Vec<&'static str> {
+    ALL.iter().filter_map(|errata| errata.first()).map(|erratum| erratum.paper).collect()
+}
+
 /// The misprints of every paper that the program implements.
-const ALL: [&[Erratum]; 3] = [&decentralized::ERRATA, &h_infinity::ERRATA, &proportional_integral::ERRATA];
+const ALL: [&[Erratum]; 5] = [
+    &decentralized::ERRATA,
+    &input_decoupled::ERRATA,
+    &h_infinity::ERRATA,
+    &hierarchical::ERRATA,
+    &proportional_integral::ERRATA,
+];
 
 #[cfg(test)]
 mod tests {
@@ -39,7 +55,7 @@ mod tests {
             assert_ne!(erratum.printed, erratum.correct, "{}: nothing is corrected", erratum.place);
             assert!(!erratum.proof.is_empty(), "{}: no proof", erratum.place);
         }
-        for (paper, own) in [("000", ALL[0]), ("002", ALL[1]), ("004", ALL[2])] {
+        for (paper, own) in papers_with_errata().into_iter().zip(ALL) {
             assert!(
                 own.iter().all(|erratum| erratum.paper == paper),
                 "{paper}: a stranger among its misprints"
