@@ -59,7 +59,7 @@ pub(super) fn of_network(system: &DescriptorSystem, design: &Design) -> Option<E
     if P.nrows() != n || system.n_unknown_inputs() > 0 {
         return None;
     }
-    let states = estimated_states(design, n);
+    let states = design.estimated_states(n);
     let (c, d_w) = (P.select_rows(&states), V.select_rows(&states));
     let none = |rows| DMatrix::zeros(rows, 0);
     let terms = Terms { b_d: none(N.nrows()), c: c.abs(), d_d: none(states.len()) };
@@ -75,11 +75,4 @@ pub(super) fn of_network(system: &DescriptorSystem, design: &Design) -> Option<E
         with_plant: false,
         terms,
     })
-}
-
-/// The states of a plant whose estimate tends to the truth: of a network those of subsystems with a local observer.
-fn estimated_states(design: &Design, n: usize) -> Vec<usize> {
-    let Some(observer) = &design.hierarchical else { return (0..n).collect() };
-    let size = observer.hierarchy.M.nrows();
-    observer.locals().flat_map(|(i, _)| i * size..(i + 1) * size).filter(|k| *k < n).collect()
 }
