@@ -88,6 +88,7 @@ fn status(rows: &[ComparisonRow]) -> TableLine {
         Err(error) => {
             let word = match error {
                 DesignError::TooFewPoles { .. } | DesignError::Poles(_) => "poles needed",
+                DesignError::Demand(_) => "demand does not fit",
                 DesignError::Condition { .. } => "does not exist",
                 DesignError::Unsuitable(_) => "not for this system",
                 DesignError::Infeasible(_) => "infeasible",
