@@ -6,6 +6,7 @@ mod figure;
 mod palette;
 mod recipe;
 pub mod standard;
+mod standard_comparison;
 
 pub use compute::{Problem, compute_figure};
 pub use errata::{Erratum, PrintedMatrix, errata, papers_with_errata, printed};
@@ -14,6 +15,7 @@ pub use palette::{PALETTE, colour};
 pub use recipe::{
     DesignPatch, FigureRecipe, PanelRecipe, Quantity, RunRecipe, ScenarioPatch, SeriesRecipe, Transfer,
 };
+pub use standard_comparison::{ComparisonFigures, comparison, design_colour};
 
 /// An example that comes with the program, as the text of a document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,5 +1,6 @@
 //! L3: plant and observer together in time.
 
+pub mod comparison;
 mod constant;
 mod direct;
 mod error;
