@@ -7,6 +7,7 @@ mod palette;
 mod recipe;
 pub mod standard;
 mod standard_comparison;
+mod standard_trade_off;
 
 pub use compute::{Problem, compute_figure};
 pub use errata::{Erratum, PrintedMatrix, errata, papers_with_errata, printed};
@@ -16,6 +17,7 @@ pub use recipe::{
     DesignPatch, FigureRecipe, PanelRecipe, Quantity, RunRecipe, ScenarioPatch, SeriesRecipe, Transfer,
 };
 pub use standard_comparison::{ComparisonFigures, comparison, design_colour};
+pub use standard_trade_off::trade_off_figure;
 
 /// An example that comes with the program, as the text of a document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
