@@ -3,23 +3,30 @@
 use egui::{RichText, Sense, Stroke, Ui, vec2};
 
 use super::super::{Output, Widgets, formula, theme};
+use super::errata;
+use crate::document::Document;
 use crate::numerics::RankDecision;
 use crate::observer::{Condition, Evidence, Verdict, show as show_number};
-use crate::paper::errata;
 use crate::session::Edit;
 
 /// Draws all conditions of an assessment.
-pub(super) fn show(ui: &mut Ui, conditions: &[Condition], widgets: &mut Widgets, out: &mut Output) {
+pub(super) fn show(
+    ui: &mut Ui,
+    document: &Document,
+    conditions: &[Condition],
+    widgets: &mut Widgets,
+    out: &mut Output,
+) {
     for condition in conditions {
         let fill = ui.visuals().faint_bg_color;
         egui::Frame::new().fill(fill).corner_radius(5.0).inner_margin(7.0).show(ui, |ui| {
             ui.set_min_width(ui.available_width());
-            one(ui, condition, widgets, out);
+            one(ui, document, condition, widgets, out);
         });
     }
 }
 
-fn one(ui: &mut Ui, condition: &Condition, widgets: &mut Widgets, out: &mut Output) {
+fn one(ui: &mut Ui, document: &Document, condition: &Condition, widgets: &mut Widgets, out: &mut Output) {
     let colour = theme::verdict(ui, condition.verdict);
     ui.horizontal_wrapped(|ui| {
         lamp(ui, condition.verdict);
@@ -45,7 +52,7 @@ fn one(ui: &mut Ui, condition: &Condition, widgets: &mut Widgets, out: &mut Outp
     }
     if widgets.open_condition.as_deref() == Some(condition.id.as_str()) || condition.verdict == Verdict::Fails
     {
-        why(ui, condition, out);
+        why(ui, document, condition, out);
     }
 }
 
@@ -70,7 +77,7 @@ fn lamp(ui: &mut Ui, verdict: Verdict) {
     }
 }
 
-fn why(ui: &mut Ui, condition: &Condition, out: &mut Output) {
+fn why(ui: &mut Ui, document: &Document, condition: &Condition, out: &mut Output) {
     if let Some(witness) = &condition.witness {
         let names = witness.main_coordinates().join(", ");
         let at = witness.s.map_or("An impulse".to_owned(), |s| format!("The mode s = {}", show_number(s)));
@@ -98,15 +105,7 @@ fn why(ui: &mut Ui, condition: &Condition, out: &mut Output) {
         evidence_row(ui, evidence);
     }
     let paper = condition.id.split('-').next().unwrap_or_default();
-    for erratum in errata(paper).filter(|erratum| erratum.concerns == condition.id) {
-        formula::remark(
-            ui,
-            &format!(
-                "Misprint, {}: printed \"{}\", correct \"{}\". {}",
-                erratum.place, erratum.printed, erratum.correct, erratum.proof
-            ),
-        );
-    }
+    errata::beside(ui, (paper, &condition.id), document);
     formula::remark(ui, &condition.source);
 }
 
