@@ -3,7 +3,9 @@
 mod analysis;
 mod apply;
 mod command;
+mod comparison;
 mod derived;
+mod edit_compare;
 mod edit_lipschitz;
 mod edit_lmi;
 mod edit_partition;
@@ -11,6 +13,7 @@ mod edit_plant;
 mod edit_scenario;
 mod edit_sensor;
 mod follow;
+mod follow_kept;
 mod history;
 mod job;
 mod model_edits;
@@ -20,8 +23,12 @@ mod state;
 mod update;
 
 pub use analysis::{Analysis, Light, MethodLight, Property, Simulation, analyse};
-pub use command::{Cell, Command, Edit, Fill, Place, Show, SignalList, Size, Tab, ThemeChoice};
+pub use command::{
+    Cell, Command, ComparedFigure, Edit, Fill, Place, Show, SignalList, Size, Tab, ThemeChoice,
+};
+pub use comparison::ComparisonView;
 pub use derived::Derived;
+pub use edit_compare::CompareEdit;
 pub use history::History;
 pub use job::{JobReply, JobRequest, Outcome, Task, perform};
 pub use model_edits::{GivenPart, LipschitzEdit, LipschitzMatrix, LmiEdit, PartitionEdit, Share};

@@ -12,7 +12,7 @@ mod rows;
 
 use egui::{RichText, Ui};
 
-use super::{Output, Widgets, theme};
+use super::{Output, Widgets, compare, theme};
 use crate::session::{Derived, Session};
 
 /// Draws the place of the observer.
@@ -25,6 +25,7 @@ pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Wid
     let assessment = match derived.analysis().map(|analysis| &analysis.assessment) {
         Some(Ok(assessment)) => {
             badge::show(ui, session, assessment, out);
+            compare::keep(ui, session, out);
             Some(assessment)
         }
         Some(Err(why)) => {
