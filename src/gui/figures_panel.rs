@@ -4,7 +4,7 @@ use egui::{RichText, ScrollArea, Ui, vec2};
 
 use super::plot::{Place, figure_ui, notes_ui, panel_ui, panels_ui, short};
 use super::pole_plane::{Poles, pole_plane_ui};
-use super::{Output, Widgets, scenario, theme};
+use super::{Output, Widgets, compare, scenario, theme};
 use crate::document::{figure_to_csv, figure_to_svg};
 use crate::numerics::Complex64;
 use crate::observer::show as show_pole;
@@ -28,6 +28,10 @@ pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Wid
         paper_figures(ui, session, derived, out);
         return;
     }
+    if tab == Tab::Compare {
+        compare::show(ui, session, derived, widgets, out);
+        return;
+    }
     let Some(analysis) = derived.analysis() else {
         waiting(ui, derived, "computing");
         return;
@@ -41,7 +45,7 @@ pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Wid
         }
         Tab::Poles => poles(ui, session, derived, out),
         Tab::Bode => bode(ui, analysis),
-        Tab::Figures => {}
+        Tab::Compare | Tab::Figures => {}
     }
 }
 
@@ -75,6 +79,7 @@ fn shown_figure<'a>(session: &Session, derived: &'a Derived) -> Option<&'a Figur
         Tab::Errors => simulation.map(|simulation| &simulation.errors),
         Tab::UnknownInput => simulation.map(|simulation| &simulation.unknown_input),
         Tab::Bode => analysis?.bode.as_ref(),
+        Tab::Compare => compare::figure(session, derived),
         Tab::Figures => {
             let id = session.view().figure.as_deref()?;
             derived.figure(id)?.as_ref().ok()

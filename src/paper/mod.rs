@@ -33,7 +33,7 @@ pub struct Example {
 }
 
 /// All examples, the first of which opens when nothing else is asked for.
-pub const EXAMPLES: [Example; 7] = [
+pub const EXAMPLES: [Example; 8] = [
     Example {
         key: "proportional-integral",
         title: "Koenig and Mammar: unknown input by an integral loop",
@@ -76,6 +76,12 @@ pub const EXAMPLES: [Example; 7] = [
         title: "A sampled machine with a load step",
         teaches: "The same observer in discrete time: deadbeat poles, and a step that is learnt in a few samples.",
         text: include_str!("../../assets/examples/discrete.json"),
+    },
+    Example {
+        key: "comparison",
+        title: "One plant, five observers",
+        teaches: "Offset, lag, noise: what proportional, integral, input-decoupled and H-infinity observers pay.",
+        text: include_str!("../../assets/examples/comparison.json"),
     },
 ];
 

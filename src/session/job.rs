@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::analysis::{Analysis, analyse};
+use super::comparison::{ComparisonView, compared};
 use super::free_report::FreeReport;
 use crate::document::read_document;
 use crate::numerics::Watch;
@@ -26,6 +27,8 @@ pub struct JobRequest {
 pub enum Task {
     /// Properties, conditions, design, simulation and standard views.
     Analyse,
+    /// The chosen design beside those that are kept.
+    Compare,
     /// One figure of the document.
     Figure {
         /// Its id.
@@ -56,6 +59,8 @@ pub enum Outcome {
     },
     /// The analysis of the document.
     Analysis(Box<Analysis>),
+    /// A comparison, or why there is none.
+    Comparison(Result<Box<ComparisonView>, String>),
     /// A figure, or why there is none.
     Figure {
         /// Its id.
@@ -76,6 +81,7 @@ pub fn perform(request: &JobRequest, watch: &Watch) -> Option<JobReply> {
     };
     let outcome = match &request.task {
         Task::Analyse => Outcome::Analysis(Box::new(analyse(&document, watch)?)),
+        Task::Compare => Outcome::Comparison(compared(&document, watch)?),
         Task::Figure { id } => {
             if !watch.go_on(0.0, "designing and simulating the figure") {
                 return None;
