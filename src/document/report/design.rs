@@ -43,6 +43,7 @@ fn missing(map: &mut Map<String, Value>, error: &DesignError) {
         DesignError::Unsuitable(_)
         | DesignError::TooFewPoles { .. }
         | DesignError::Poles(_)
+        | DesignError::Demand(_)
         | DesignError::Infeasible(_)
         | DesignError::Cancelled
         | DesignError::GaveUp(_)
