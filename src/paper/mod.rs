@@ -1,19 +1,24 @@
 //! L3: the papers as data: citations, example documents, figure recipes, errata.
 
+mod bode;
 mod compute;
 mod errata;
 mod figure;
+mod motion;
 mod palette;
 mod recipe;
+mod run;
 pub mod standard;
 
-pub use compute::{Problem, compute_figure};
+pub use compute::{compute_figure, compute_network_figure};
 pub use errata::{Erratum, errata};
 pub use figure::{Axis, FigureSpec, Panel, Role, Series};
+pub use motion::Motion;
 pub use palette::{PALETTE, colour};
 pub use recipe::{
     DesignPatch, FigureRecipe, PanelRecipe, Quantity, RunRecipe, ScenarioPatch, SeriesRecipe, Transfer,
 };
+pub use run::{NetworkProblem, Problem};
 
 /// An example that comes with the program, as the text of a document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
