@@ -1,21 +1,26 @@
 //! L3: the papers as data: citations, example documents, figure recipes, errata.
 
+mod bode;
 mod compute;
 mod errata;
 mod figure;
+mod motion;
 mod palette;
 mod recipe;
+mod run;
 pub mod standard;
 mod standard_comparison;
 mod standard_trade_off;
 
-pub use compute::{Problem, compute_figure};
+pub use compute::{compute_figure, compute_network_figure};
 pub use errata::{Erratum, PrintedMatrix, errata, papers_with_errata, printed};
 pub use figure::{Axis, FigureSpec, Panel, Role, Series};
+pub use motion::Motion;
 pub use palette::{PALETTE, colour};
 pub use recipe::{
     DesignPatch, FigureRecipe, PanelRecipe, Quantity, RunRecipe, ScenarioPatch, SeriesRecipe, Transfer,
 };
+pub use run::{NetworkProblem, Problem};
 pub use standard_comparison::{ComparisonFigures, comparison, design_colour};
 pub use standard_trade_off::trade_off_figure;
 
