@@ -239,6 +239,8 @@ pub enum Tab {
     Poles,
     /// Frequency responses.
     Bode,
+    /// Designs along a sweep of the bandwidth or of the decay.
+    TradeOff,
     /// The chosen design beside those that are kept.
     Compare,
     /// Figures of the document.
@@ -247,13 +249,14 @@ pub enum Tab {
 
 impl Tab {
     /// All views, in the order in which they are offered.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Overview,
         Self::States,
         Self::Errors,
         Self::UnknownInput,
         Self::Poles,
         Self::Bode,
+        Self::TradeOff,
         Self::Compare,
         Self::Figures,
     ];
@@ -267,6 +270,7 @@ impl Tab {
             Self::UnknownInput => "Unknown input",
             Self::Poles => "Poles",
             Self::Bode => "Bode",
+            Self::TradeOff => "Trade-off",
             Self::Compare => "Compare",
             Self::Figures => "Paper figures",
         }
