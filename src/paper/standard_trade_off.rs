@@ -51,7 +51,7 @@ pub fn trade_off_figure(found: &TradeOff, time: TimeDomain) -> FigureSpec {
     };
     let panels = [
         panel(found, "What is gained", x.clone(), (speed, at), &GAINED),
-        panel(found, "What it costs: H-infinity norms of the error, norms of gains", x, ("", at), &COSTS),
+        panel(found, "What reaches the error, and the gains it takes", x, ("", at), &COSTS),
         against(found, speed),
     ];
     FigureSpec {
