@@ -414,7 +414,7 @@ fn data_that_are_no_numbers_or_do_not_fit_are_refused() {
         LmiChoice { conditioning: 0.5, ..LmiChoice::default() },
     ] {
         let error = assessed(&model(), &choice("full", lmi)).outcome.unwrap_err();
-        assert!(matches!(error, DesignError::Unsuitable(_)), "{error}");
+        assert!(matches!(error, DesignError::Demand(_)) && error.is_bad_input(), "{error}");
     }
 }
 

@@ -322,6 +322,20 @@ fn the_chosen_figure_is_computed_when_it_is_on_screen() {
 }
 
 #[test]
+fn the_sweep_is_computed_when_it_is_on_screen() {
+    let (mut session, mut derived) = (session(), Derived::default());
+    let first = derived.next_request(&session).unwrap();
+    derived.receive(perform(&first, &Watch::none()).unwrap());
+    update(&mut session, Command::Show(Show::Tab(Tab::TradeOff)));
+    assert!(derived.trade_off().is_none(), "not asked yet");
+    let request = derived.next_request(&session).unwrap();
+    derived.receive(perform(&request, &Watch::none()).unwrap());
+    let figure = derived.trade_off().unwrap().as_ref().unwrap();
+    assert_eq!(figure.panels.len(), 3, "gained, cost, one against the other");
+    assert!(derived.next_request(&session).is_none(), "once for each revision");
+}
+
+#[test]
 fn progress_can_stop_a_computation() {
     let session = session();
     let request = Derived::default().next_request(&session).unwrap();

@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
 use super::hierarchical::HierarchicalObserver;
-use super::{Injection, LinearObserver, Synthesis, Verification};
+use super::{Condition, Injection, LinearObserver, Synthesis, Verification};
 use crate::lmi::Infeasible;
 use crate::numerics::{Complex64, NumericsError, PlacementError};
 
@@ -69,6 +69,15 @@ impl Design {
     pub fn matrix(&self, name: &str) -> Option<&DMatrix<f64>> {
         self.matrices.iter().find(|m| m.name == name).map(|m| &m.value)
     }
+
+    /// The states of a plant with `n` states whose estimate tends to the truth, from zero, in ascending order: all, but of
+    /// a network those that [`HierarchicalObserver::estimated_states`] names.
+    pub fn estimated_states(&self, n: usize) -> Vec<usize> {
+        match &self.hierarchical {
+            Some(observer) => observer.estimated_states().into_iter().filter(|k| *k < n).collect(),
+            None => (0..n).collect(),
+        }
+    }
 }
 
 /// Why there is no design.
@@ -95,6 +104,9 @@ pub enum DesignError {
         /// How many the design places.
         needed: usize,
     },
+    /// A demand, a matrix `R` or a list of decoupled states that makes no sense or does not fit.
+    #[error("{0}")]
+    Demand(String),
     /// A pole without its conjugate, or one that is not finite.
     #[error("{0}")]
     Poles(String),
@@ -135,9 +147,24 @@ impl From<PlacementError> for DesignError {
 }
 
 impl DesignError {
-    /// Whether the document is at fault (a pole list, unsuitable data) rather than the mathematics.
+    /// Whether the document is at fault (a pole list, a demand) rather than the mathematics.
     pub fn is_bad_input(&self) -> bool {
-        matches!(self, Self::TooFewPoles { .. } | Self::Poles(_))
+        matches!(self, Self::TooFewPoles { .. } | Self::Poles(_) | Self::Demand(_))
+    }
+}
+
+/// Asks that every needed condition holds.
+///
+/// # Errors
+/// [`DesignError::Condition`] with the first that does not.
+pub(super) fn needed(conditions: &[Condition]) -> Result<(), DesignError> {
+    match conditions.iter().find(|c| c.needed && !c.verdict.holds()) {
+        Some(failed) => Err(DesignError::Condition {
+            id: failed.id.clone(),
+            label: failed.label.clone(),
+            summary: failed.summary.clone(),
+        }),
+        None => Ok(()),
     }
 }
 

@@ -4,6 +4,8 @@
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
+use super::DesignError;
+
 /// Demands on a design by linear matrix inequalities (papers 000 and 002).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LmiChoice {
@@ -45,6 +47,41 @@ impl Default for LmiChoice {
             given: None,
             seconds: 10.0,
         }
+    }
+}
+
+impl LmiChoice {
+    /// Whether the demands make sense: each is a size, a speed or a radius.
+    ///
+    /// # Errors
+    /// [`DesignError::Demand`] with what was found and what is needed.
+    pub(super) fn check(&self, discrete: bool) -> Result<(), DesignError> {
+        let positive = |x: f64| x.is_finite() && x > 0.0;
+        let refuse = |what: &str, found: f64, needed: &str| {
+            Err(DesignError::Demand(format!("the {what} is {found}, but {needed} is needed")))
+        };
+        match self.decay {
+            Some(decay) if discrete && !(positive(decay) && decay <= 1.0) => {
+                return refuse("decay", decay, "a radius |z| between 0 and 1");
+            }
+            Some(decay) if !(decay.is_finite() && decay >= 0.0) => {
+                return refuse("decay rate", decay, "a finite number that is not negative");
+            }
+            _ => {}
+        }
+        if let Some(gain) = self.gain.filter(|gain| !positive(*gain)) {
+            return refuse("gain bound", gain, "a positive finite number");
+        }
+        if let Some(gamma) = self.gamma.filter(|gamma| !positive(*gamma)) {
+            return refuse("attenuation gamma", gamma, "a positive finite number");
+        }
+        if !(self.conditioning.is_finite() && self.conditioning >= 1.0) {
+            return refuse("bound on the condition of X", self.conditioning, "a finite number of at least 1");
+        }
+        if !(self.back_off.is_finite() && self.back_off >= 0.0) {
+            return refuse("back-off", self.back_off, "a finite number that is not negative");
+        }
+        Ok(())
     }
 }
 

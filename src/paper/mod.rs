@@ -1,19 +1,28 @@
 //! L3: the papers as data: citations, example documents, figure recipes, errata.
 
+mod bode;
 mod compute;
 mod errata;
 mod figure;
+mod motion;
 mod palette;
 mod recipe;
+mod run;
 pub mod standard;
+mod standard_comparison;
+mod standard_trade_off;
 
-pub use compute::{Problem, compute_figure};
+pub use compute::{compute_figure, compute_network_figure};
 pub use errata::{Erratum, PrintedMatrix, errata, papers_with_errata, printed};
 pub use figure::{Axis, FigureSpec, Panel, Role, Series};
+pub use motion::Motion;
 pub use palette::{PALETTE, colour};
 pub use recipe::{
     DesignPatch, FigureRecipe, PanelRecipe, Quantity, RunRecipe, ScenarioPatch, SeriesRecipe, Transfer,
 };
+pub use run::{NetworkProblem, Problem};
+pub use standard_comparison::{ComparisonFigures, comparison, design_colour};
+pub use standard_trade_off::trade_off_figure;
 
 /// An example that comes with the program, as the text of a document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,7 +38,7 @@ pub struct Example {
 }
 
 /// All examples, the first of which opens when nothing else is asked for.
-pub const EXAMPLES: [Example; 7] = [
+pub const EXAMPLES: [Example; 8] = [
     Example {
         key: "proportional-integral",
         title: "Koenig and Mammar: unknown input by an integral loop",
@@ -72,6 +81,12 @@ pub const EXAMPLES: [Example; 7] = [
         title: "A sampled machine with a load step",
         teaches: "The same observer in discrete time: deadbeat poles, and a step that is learnt in a few samples.",
         text: include_str!("../../assets/examples/discrete.json"),
+    },
+    Example {
+        key: "comparison",
+        title: "One plant, five observers",
+        teaches: "Offset, lag, noise: what proportional, integral, input-decoupled and H-infinity observers pay.",
+        text: include_str!("../../assets/examples/comparison.json"),
     },
 ];
 

@@ -1,12 +1,15 @@
 //! Carrying out an edit: the change, what follows from it, drafts, and the step of the history.
 
 use super::command::Edit;
+use super::edit_compare::CompareEdit;
 use super::edit_free::FreeEdit;
 use super::follow::follow;
 use super::model_edits::{GivenPart, LipschitzEdit, LmiEdit, PartitionEdit};
 use super::state::{Draft, Field, Message, Session};
 use super::update::{Edited, replace};
-use super::{edit_free, edit_lipschitz, edit_lmi, edit_partition, edit_plant, edit_scenario, poles};
+use super::{
+    edit_compare, edit_free, edit_lipschitz, edit_lmi, edit_partition, edit_plant, edit_scenario, poles,
+};
 use crate::document::{Document, Entry, EntryMatrix, PlantData, limits};
 
 /// Carries out an edit as one step, or as a part of the drag that it belongs to.
@@ -20,6 +23,7 @@ pub(super) fn apply(session: &mut Session, edit: Edit) {
         _ => None,
     };
     let fed_back = matches!(edit, Edit::Free(FreeEdit::Feedback(_) | FreeEdit::Paste(_)));
+    let exchanged = matches!(&edit, Edit::Compare(edit) if edit_compare::exchanges(edit));
     let waiting = if ends { waiting_fields(&edit) } else { None };
     let mut document = (*session.document).clone();
     let (edited, told) = changed(&mut document, &session.document, edit);
@@ -30,6 +34,9 @@ pub(super) fn apply(session: &mut Session, edit: Edit) {
             }
             let resized = sizes(&session.document) != sizes(&document);
             session.drafts.retain(|field, _| keeps_meaning(field, &document, resized));
+            if exchanged {
+                session.drafts.retain(|field, _| !edit_compare::belongs_to_a_design(field));
+            }
             if let Some(matrix) = overwritten {
                 session
                     .drafts
@@ -127,6 +134,7 @@ fn keeps_meaning(field: &Field, document: &Document, resized: bool) -> bool {
         Field::Component(index) => nonlinearity.is_some_and(|lipschitz| *index < lipschitz.f.len()),
         Field::LipschitzConstant => nonlinearity.is_some(),
         Field::FreeFeedback(..) => !resized && document.scenario.free.feedback.is_some(),
+        Field::KeptName(index) => *index < document.kept.len(),
     }
 }
 
@@ -189,6 +197,7 @@ fn typed_field(edit: &Edit) -> Option<Field> {
         Edit::Lipschitz(LipschitzEdit::Constant(_)) => Some(Field::LipschitzConstant),
         Edit::Free(FreeEdit::Signal { index, .. }) => Some(Field::FreeSignal(*index)),
         Edit::Free(FreeEdit::Cell { row, column, .. }) => Some(Field::FreeFeedback(*row, *column)),
+        Edit::Compare(CompareEdit::Rename { kept, .. }) => Some(Field::KeptName(*kept)),
         _ => None,
     }
 }
@@ -247,6 +256,7 @@ fn change(document: &mut Document, edit: Edit) -> Edited {
         Edit::Partition(edit) => return edit_partition::change(document, edit),
         Edit::Lipschitz(edit) => return edit_lipschitz::change(document, edit),
         Edit::Free(edit) => return edit_free::change(document, edit),
+        Edit::Compare(edit) => return edit_compare::change(document, edit),
         Edit::Initial { .. }
         | Edit::Signal { .. }
         | Edit::Horizon(_)

@@ -3,7 +3,9 @@
 mod analysis;
 mod apply;
 mod command;
+mod comparison;
 mod derived;
+mod edit_compare;
 mod edit_free;
 mod edit_lipschitz;
 mod edit_lmi;
@@ -12,6 +14,7 @@ mod edit_plant;
 mod edit_scenario;
 mod edit_sensor;
 mod follow;
+mod follow_kept;
 mod free_report;
 mod history;
 mod job;
@@ -22,8 +25,12 @@ mod state;
 mod update;
 
 pub use analysis::{Analysis, Light, MethodLight, Property, Simulation, analyse};
-pub use command::{Cell, Command, Edit, Fill, Place, Show, SignalList, Size, Tab, ThemeChoice};
+pub use command::{
+    Cell, Command, ComparedFigure, Edit, Fill, Place, Show, SignalList, Size, Tab, ThemeChoice,
+};
+pub use comparison::ComparisonView;
 pub use derived::Derived;
+pub use edit_compare::CompareEdit;
 pub use edit_free::FreeEdit;
 pub use free_report::FreeReport;
 pub use history::History;

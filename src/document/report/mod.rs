@@ -4,6 +4,7 @@
 //! no number for is the text `"inf"`, `"-inf"` or `"nan"` (a gap is `"inf"` when nothing is left below it). Complex
 //! numbers are `[real, imaginary]`, matrices are lists of rows. Keys keep their order: same document, same bytes.
 
+mod comparison;
 mod condition;
 mod design;
 mod errata;
@@ -21,6 +22,7 @@ use crate::numerics::Complex64;
 use crate::observer::{Assessment, Condition};
 use crate::paper::Erratum;
 use crate::simulation::Trajectory;
+use crate::simulation::comparison::Comparison;
 use crate::system::{DescriptorSystem, Model, TimeDomain};
 
 pub use figures::{FigureFiles, WrittenFigure};
@@ -65,6 +67,14 @@ pub fn figures_report(document: &Document, figures: &[WrittenFigure]) -> String 
     let mut map = Map::new();
     put_command(&mut map, "figures", document);
     map.insert("figures".to_owned(), figures.iter().map(figures::figure).collect());
+    pretty(&Value::Object(map))
+}
+
+/// Report of `descry compare`: the chosen design and those that are kept beside it.
+pub fn comparison_report(document: &Document, comparison: &Comparison) -> String {
+    let mut map = Map::new();
+    put_command(&mut map, "compare", document);
+    comparison::put(&mut map, comparison);
     pretty(&Value::Object(map))
 }
 

@@ -83,7 +83,10 @@ fn failed(ui: &Ui, error: &DesignError, examined: bool) -> (Color32, &'static st
     match error {
         DesignError::TooFewPoles { .. } | DesignError::Poles(_) => (theme::near(ui), "poles needed"),
         DesignError::Condition { .. } => (theme::bad(ui), "does not exist"),
-        DesignError::Unsuitable(_) if examined => (theme::near(ui), "cannot be examined"),
+        DesignError::Unsuitable(_) | DesignError::Demand(_) if examined => {
+            (theme::near(ui), "cannot be examined")
+        }
+        DesignError::Demand(_) => (theme::near(ui), "demand does not fit"),
         DesignError::Unsuitable(_) => (theme::faint(ui), "not for this system"),
         DesignError::Infeasible(_) => (theme::bad(ui), "infeasible"),
         DesignError::Cancelled => (theme::near(ui), "cancelled"),

@@ -13,7 +13,7 @@ mod rows;
 
 use egui::{RichText, Ui};
 
-use super::{Output, Widgets, theme};
+use super::{Output, Widgets, compare, theme};
 use crate::observer::Assessment;
 use crate::session::{Derived, Session};
 
@@ -27,6 +27,7 @@ pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Wid
     let assessment = match derived.analysis().map(|analysis| &analysis.assessment) {
         Some(Ok(assessment)) => {
             badge::show(ui, session, assessment, out);
+            compare::keep(ui, session, out);
             Some(assessment)
         }
         Some(Err(why)) => {

@@ -1,5 +1,6 @@
 //! The designs of all subsystems, independent of each other, and the composite of their observers.
 
+use crate::observer::design::needed;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use super::composite::{composite, matrices, notes};
@@ -24,13 +25,7 @@ pub fn design(
     tolerance: &Tolerance,
     watch: &Watch,
 ) -> Result<Design, DesignError> {
-    if let Some(failed) = conditions.iter().find(|c| c.needed && !c.verdict.holds()) {
-        return Err(DesignError::Condition {
-            id: failed.id.clone(),
-            label: failed.label.clone(),
-            summary: failed.summary.clone(),
-        });
-    }
+    needed(conditions)?;
     let problems = local_problems(model).map_err(|error| DesignError::Unsuitable(error.to_string()))?;
     let outcomes = design_subsystems(&problems, choice, tolerance, watch)?;
     let mut locals = Vec::with_capacity(outcomes.len());

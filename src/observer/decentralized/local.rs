@@ -77,9 +77,11 @@ pub fn design_local(
 
 impl From<SetupError> for DesignError {
     fn from(error: SetupError) -> Self {
-        match error {
+        match &error {
             SetupError::Property(error) => Self::Numerics(error.to_string()),
-            other => Self::Unsuitable(other.to_string()),
+            SetupError::Columns(_) | SetupError::Order(_) | SetupError::Count { .. } => {
+                Self::Demand(error.to_string())
+            }
         }
     }
 }
@@ -87,31 +89,7 @@ impl From<SetupError> for DesignError {
 /// The demands of a choice, after a look at whether they make sense.
 fn demands(problem: &LocalProblem, choice: &DesignChoice) -> Result<Demands, DesignError> {
     let lmi = &choice.lmi;
-    let positive = |x: f64| x.is_finite() && x > 0.0;
-    let refuse = |what: &str, found: f64, needed: &str| {
-        Err(DesignError::Unsuitable(format!("the {what} is {found}, but {needed} is needed")))
-    };
-    match lmi.decay {
-        Some(decay) if problem.is_discrete() && !(positive(decay) && decay <= 1.0) => {
-            return refuse("decay", decay, "a radius |z| between 0 and 1");
-        }
-        Some(decay) if !(decay.is_finite() && decay >= 0.0) => {
-            return refuse("decay rate", decay, "a finite number that is not negative");
-        }
-        _ => {}
-    }
-    if let Some(gain) = lmi.gain.filter(|gain| !positive(*gain)) {
-        return refuse("gain bound", gain, "a positive finite number");
-    }
-    if let Some(gamma) = lmi.gamma.filter(|gamma| !positive(*gamma)) {
-        return refuse("attenuation gamma", gamma, "a positive finite number");
-    }
-    if !(lmi.conditioning.is_finite() && lmi.conditioning >= 1.0) {
-        return refuse("bound on the condition of X", lmi.conditioning, "a finite number of at least 1");
-    }
-    if !(lmi.back_off.is_finite() && lmi.back_off >= 0.0) {
-        return refuse("back-off", lmi.back_off, "a finite number that is not negative");
-    }
+    lmi.check(problem.is_discrete())?;
     Ok(Demands { decay: lmi.decay, gain: lmi.gain, conditioning: lmi.conditioning, gamma: lmi.gamma })
 }
 

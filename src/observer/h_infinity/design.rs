@@ -1,6 +1,7 @@
 //! The design: pose the inequalities, solve them, and hand what they give to the judges.
 #![expect(non_snake_case, reason = "matrix letters follow paper 002")]
 
+use crate::observer::design::needed;
 use nalgebra::DMatrix;
 
 use super::audit::audit;
@@ -34,13 +35,7 @@ pub fn design(
     tolerance: &Tolerance,
     watch: &Watch,
 ) -> Result<Design, DesignError> {
-    if let Some(failed) = conditions.iter().find(|c| c.needed && !c.verdict.holds()) {
-        return Err(DesignError::Condition {
-            id: failed.id.clone(),
-            label: failed.label.clone(),
-            summary: failed.summary.clone(),
-        });
-    }
+    needed(conditions)?;
     let demands = demands(choice)?;
     let plant = Plant::new(model, tolerance).map_err(refused)?;
     if plant.lambda < 0.0 {
@@ -49,9 +44,9 @@ pub fn design(
             plant.lambda
         )));
     }
-    let rows = Rows::of(&plant, choice, tolerance)?.map_err(DesignError::Unsuitable)?;
+    let rows = Rows::of(&plant, choice, tolerance)?.map_err(DesignError::Demand)?;
     if let Some(why) = rows.refusal(plant.n()) {
-        return Err(DesignError::Unsuitable(why));
+        return Err(DesignError::Demand(why));
     }
     let family = Parameterisation::new(&plant, &rows.R, tolerance)?;
     if let Some(given) = &choice.lmi.given {
@@ -71,28 +66,13 @@ pub fn design(
     finish(&plant, &family, choice, &solved, tolerance)
 }
 
-/// The demands of a choice, each of which is a positive number.
+/// The demands of a choice, after a look at whether they make sense.
 pub(super) fn demands(choice: &DesignChoice) -> Result<Demands, DesignError> {
     let lmi = &choice.lmi;
-    let positive = |name: &str, value: Option<f64>| match value {
-        Some(x) if x.is_nan() || x <= 0.0 => {
-            Err(DesignError::Unsuitable(format!("the {name} is {x}: a positive number is needed")))
-        }
-        _ => Ok(()),
-    };
-    positive("decay rate", lmi.decay)?;
-    positive("gain bound", lmi.gain)?;
-    positive("attenuation gamma", lmi.gamma)?;
-    positive("back-off", Some(lmi.back_off))?;
-    if lmi.conditioning.is_nan() || lmi.conditioning < 1.0 {
-        return Err(DesignError::Unsuitable(format!(
-            "the bound on the condition of X is {}: at least 1 is needed",
-            lmi.conditioning
-        )));
-    }
+    lmi.check(false)?;
     Ok(Demands {
         decay: lmi.decay,
-        gain: lmi.gain.filter(|gain| gain.is_finite()),
+        gain: lmi.gain,
         conditioning: lmi.conditioning,
         gamma: lmi.gamma,
         alternative: lmi.alternative,

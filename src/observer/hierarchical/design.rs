@@ -11,7 +11,7 @@ use crate::numerics::{
     Complex64, Placement, PlacementError, PlacementOptions, StabilityRegion, Tolerance, observable_quotient,
     place_observer,
 };
-use crate::observer::design::chosen_poles;
+use crate::observer::design::{chosen_poles, needed};
 use crate::observer::{
     Condition, Design, DesignChoice, DesignError, NamedMatrix, Synthesis, Verification, show,
 };
@@ -245,13 +245,7 @@ pub fn design(
     conditions: &[Condition],
     tolerance: &Tolerance,
 ) -> Result<HierarchicalDesign, DesignError> {
-    if let Some(failed) = conditions.iter().find(|c| c.needed && !c.verdict.holds()) {
-        return Err(DesignError::Condition {
-            id: failed.id.clone(),
-            label: failed.label.clone(),
-            summary: failed.summary.clone(),
-        });
-    }
+    needed(conditions)?;
     let hierarchy = Hierarchy::of(network, tolerance)?;
     let global = design_global(&hierarchy, choice, tolerance)?;
     let mut notes = notes("global", &global.placement, choice.poles.len());

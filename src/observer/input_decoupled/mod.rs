@@ -27,6 +27,7 @@ mod decoupling;
 mod realize;
 mod reduction;
 
+use super::design::needed;
 use nalgebra::DMatrix;
 
 pub use conditions::conditions;
@@ -66,13 +67,7 @@ pub fn design(
                 .to_owned(),
         ));
     }
-    if let Some(failed) = conditions.iter().find(|c| c.needed && !c.verdict.holds()) {
-        return Err(DesignError::Condition {
-            id: failed.id.clone(),
-            label: failed.label.clone(),
-            summary: failed.summary.clone(),
-        });
-    }
+    needed(conditions)?;
     let at = coordinates(system, tolerance)?;
     let reduction =
         if general { general_reduction(&at, tolerance)? } else { paper_reduction(&at, tolerance)? };

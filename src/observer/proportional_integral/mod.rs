@@ -24,6 +24,7 @@ mod general;
 mod realize;
 mod reduced_order;
 
+use super::design::needed;
 use nalgebra::DMatrix;
 
 pub(super) use conditions::{advise_units, single_sensors};
@@ -160,13 +161,7 @@ pub(super) fn finish(
     conditions: &[Condition],
     tolerance: &Tolerance,
 ) -> Result<Design, DesignError> {
-    if let Some(failed) = conditions.iter().find(|c| c.needed && !c.verdict.holds()) {
-        return Err(DesignError::Condition {
-            id: failed.id.clone(),
-            label: failed.label.clone(),
-            summary: failed.summary.clone(),
-        });
-    }
+    needed(conditions)?;
     let hold = hold(system.time);
     let request = PoleRequest { choice, discrete: system.time == TimeDomain::Discrete, tolerance };
     let (order, realized) = match choice.order {

@@ -2,11 +2,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{Ask, condition, evidence};
+use super::{Ask, condition};
 use crate::numerics::Block::{Of, Zero};
 use crate::numerics::{Complex64, RankDecision, block_matrix, rank, stack, subspaces};
 use crate::observer::proportional_integral::single_sensors;
-use crate::observer::{Condition, Verdict, Witness};
+use crate::observer::{Condition, Evidence, Verdict, Witness};
 use crate::system::DescriptorSystem;
 use crate::system::properties::PropertyError;
 
@@ -58,8 +58,8 @@ impl Ask<'_> {
             }
         }
         result.evidence = vec![
-            evidence("[U2'AV2 U2'D], on the null spaces of E", decision, required),
-            evidence("[0 E 0; E A D]", printed, e + r),
+            Evidence::rank("[U2'AV2 U2'D], on the null spaces of E", decision, required),
+            Evidence::rank("[0 E 0; E A D]", printed, e + r),
         ];
         result.needed = needed;
         Ok(result)
@@ -118,8 +118,8 @@ impl Ask<'_> {
             }
         }
         result.evidence = vec![
-            evidence("[U2'AV2 U2'D; CV2 F], on the null spaces of E", decision, required),
-            evidence("[0 E 0; E A D; 0 C F]", printed, n + q + r),
+            Evidence::rank("[U2'AV2 U2'D; CV2 F], on the null spaces of E", decision, required),
+            Evidence::rank("[0 E 0; E A D; 0 C F]", printed, n + q + r),
         ];
         Ok(result)
     }
