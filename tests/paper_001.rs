@@ -23,6 +23,8 @@ use descry::system::{DescriptorSystem, LipschitzTerm, Model, TimeDomain};
 use nalgebra::{DMatrix, DVector, dmatrix};
 use serde_json::Value;
 
+#[path = "paper_001/elsewhere.rs"]
+mod elsewhere;
 #[path = "paper_001/figures.rs"]
 mod figures;
 #[path = "paper_001/random.rs"]
@@ -483,7 +485,7 @@ fn the_second_condition_fails_without_an_output_and_names_sensors() {
     let second = found(&conditions, "(A2)");
     assert_eq!(second.verdict, Verdict::Fails, "three unknowns, two equations: {}", second.summary);
     assert!(
-        second.remedies[0].contains("at least 2 outputs are needed, there are 1"),
+        second.remedies[0].contains("at least 2 outputs are needed, there is 1"),
         "{:?}",
         second.remedies
     );

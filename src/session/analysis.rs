@@ -200,7 +200,8 @@ fn light(model: &Model, document: &Document, method: Method, known: Option<&[Con
     };
     let needed = || found.iter().filter(|condition| condition.needed);
     if let Some(failed) = needed().find(|condition| !condition.verdict.holds()) {
-        return light(Light::Fails, &format!("condition {} fails: {}", failed.label, failed.summary));
+        let mend = failed.remedies.first().map_or(String::new(), |remedy| format!("\n{remedy}"));
+        return light(Light::Fails, &format!("condition {} fails: {}{mend}", failed.label, failed.summary));
     }
     match needed().find(|condition| condition.verdict == Verdict::Fragile) {
         Some(near) => light(Light::Near, &format!("condition {} holds narrowly", near.label)),

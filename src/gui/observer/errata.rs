@@ -50,7 +50,7 @@ pub(super) fn beside(ui: &mut Ui, (paper, concerns): (&str, &str), document: &Do
         formula::remark(
             ui,
             &format!(
-                "Misprint, {}: printed \"{}\", correct \"{}\". {}",
+                "Misprint, {}: printed \"{}\", correct \"{}\": {}",
                 erratum.place, erratum.printed, erratum.correct, erratum.proof
             ),
         );
@@ -66,7 +66,7 @@ pub(super) fn printed(ui: &mut Ui, known: &PrintedMatrix, digits: fn(f64) -> Str
                 for (j, value) in row.iter().enumerate() {
                     let text = RichText::new(digits(*value)).monospace();
                     let text = if known.differs(i, j) {
-                        text.color(theme::bad(ui)).strong()
+                        text.color(theme::near(ui)).strong()
                     } else {
                         text.color(theme::faint(ui))
                     };

@@ -175,11 +175,12 @@ fn modes(ui: &mut Ui, report: &FreeReport) {
             formula::remark(ui, &format!("The plant stays bounded: its modes are {}.", list(modes)));
         }
         Ok(modes) => {
-            let text = format!(
-                "The plant may grow: of its modes {} not all decay ({}).",
-                list(modes),
-                list(&report.unstable)
-            );
+            let (all, growing) = (list(modes), list(&report.unstable));
+            let text = if modes.len() == report.unstable.len() {
+                format!("The plant may grow: its modes {all} do not decay.")
+            } else {
+                format!("The plant may grow: of its modes {all} not all decay ({growing}).")
+            };
             ui.label(RichText::new(text).small().color(theme::near(ui)));
         }
         Err(why) => {
