@@ -202,7 +202,7 @@ fn combination(coefficients: impl Iterator<Item = f64>) -> String {
         if size != "1.0000" {
             text.extend([size.as_str(), " "]);
         }
-        text.extend(["x", (j + 1).to_string().as_str()]);
+        text.extend(["x", &(j + 1).to_string()]);
     }
     text
 }
