@@ -4,7 +4,7 @@ use egui::{CollapsingHeader, DragValue, Id, Response, Slider, Ui};
 
 use super::text_field::text_field;
 use super::{Output, Widgets, theme};
-use crate::document::{Document, EntryMatrix, Matrix, PlantData, ScenarioData};
+use crate::document::{Document, Entry, EntryMatrix, Matrix, PlantData, ScenarioData};
 use crate::session::{Edit, Field, Session, SignalList};
 use crate::system::{Signal, TimeDomain};
 
@@ -259,10 +259,14 @@ fn initial(ui: &mut Ui, session: &Session, widgets: &mut Widgets, states: usize,
     if states == 0 {
         return;
     }
-    let x0 = &session.document().scenario.x0;
+    let scenario = &session.document().scenario;
+    let x0 = &scenario.x0;
+    let formula = scenario.x0_formula.as_ref().filter(|_| x0.is_empty());
+    let values = formula.map_or_else(Vec::new, |formula| formula.values(states));
     ui.label("x(0) =");
     for state in 0..states {
-        let shown = x0.get(state).map_or_else(|| "0".to_owned(), crate::document::Entry::shown);
+        let computed = || values.get(state).map_or(Entry::number(0.0), |value| Entry::number(*value));
+        let shown = x0.get(state).cloned().unwrap_or_else(computed).shown();
         let draft = session.draft(&Field::Initial(state));
         let id = Id::unique(("initial", state));
         let name = format!("x{}(0)", state + 1);

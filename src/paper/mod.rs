@@ -9,6 +9,7 @@ mod palette;
 mod recipe;
 mod run;
 pub mod standard;
+pub mod standard_network;
 
 pub use compute::{compute_figure, compute_network_figure};
 pub use errata::{Erratum, errata};
@@ -34,7 +35,7 @@ pub struct Example {
 }
 
 /// All examples, the first of which opens when nothing else is asked for.
-pub const EXAMPLES: [Example; 6] = [
+pub const EXAMPLES: [Example; 8] = [
     Example {
         key: "proportional-integral",
         title: "Koenig and Mammar: unknown input by an integral loop",
@@ -52,6 +53,18 @@ pub const EXAMPLES: [Example; 6] = [
         title: "Decentralized observers of two interconnected subsystems",
         teaches: "Two local observers that do not know each other's states: decoupled exactly, or attenuated.",
         text: include_str!("../../assets/examples/decentralized.json"),
+    },
+    Example {
+        key: "hierarchical",
+        title: "Ishizaki et al.: a network, as a whole and one by one",
+        teaches: "One observer for what a network shows as a whole; local ones are plugged in and out without touching it.",
+        text: include_str!("../../assets/examples/hierarchical.json"),
+    },
+    Example {
+        key: "network-ring",
+        title: "A ring of a thousand subsystems",
+        teaches: "Five thousand states, estimated through six: the coupling has rank three, and only that counts.",
+        text: include_str!("../../assets/examples/network-ring.json"),
     },
     Example {
         key: "unseen-impulse",
@@ -88,7 +101,7 @@ pub struct Paper {
 }
 
 /// The papers that are implemented.
-pub const PAPERS: [Paper; 3] = [
+pub const PAPERS: [Paper; 4] = [
     Paper {
         key: "000",
         citation: "\"Decentralized observers for large scale interconnected singular systems\", conference paper on the \
@@ -99,6 +112,11 @@ pub const PAPERS: [Paper; 3] = [
         citation: "M. Zerrougui, M. Darouach, L. Boutat-Baddas and H. Souley Ali, \"H-infinity observers design for a \
                    class of continuous time nonlinear singular systems\", Journal of Control Science and Engineering \
                    2011, article 967571",
+    },
+    Paper {
+        key: "003",
+        citation: "T. Ishizaki, Y. Sakai, K. Kashima and J. Imura, \"Hierarchical decentralized observer design for linearly \
+                   coupled network systems\"",
     },
     Paper {
         key: "004",

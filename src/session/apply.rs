@@ -107,7 +107,7 @@ fn keeps_meaning(field: &Field, document: &Document, resized: bool) -> bool {
     };
     let lmi = &document.design.lmi;
     match field {
-        Field::Poles => true,
+        Field::Poles | Field::InitialFormula => true,
         Field::Cell(_) | Field::Initial(_) | Field::Signal(..) | Field::Uncertainty(..) => !resized,
         Field::Rows(subsystem, row, column) => {
             let there = |rows: &nalgebra::DMatrix<f64>| *row < rows.nrows() && *column < rows.ncols();
@@ -164,6 +164,7 @@ fn typed_field(edit: &Edit) -> Option<Field> {
         Edit::Cell { cell, .. } => Some(Field::Cell(*cell)),
         Edit::Poles(_) | Edit::MovePole { .. } => Some(Field::Poles),
         Edit::Initial { state, .. } => Some(Field::Initial(*state)),
+        Edit::InitialFormula(_) => Some(Field::InitialFormula),
         Edit::Signal { list, index, .. } => Some(Field::Signal(*list, *index)),
         Edit::UncertaintyCell { row, column, frequency, .. } => {
             Some(Field::Uncertainty(*row, *column, *frequency))
@@ -235,6 +236,7 @@ fn change(document: &mut Document, edit: Edit) -> Edited {
         Edit::Partition(edit) => return edit_partition::change(document, edit),
         Edit::Lipschitz(edit) => return edit_lipschitz::change(document, edit),
         Edit::Initial { .. }
+        | Edit::InitialFormula(_)
         | Edit::Signal { .. }
         | Edit::Horizon(_)
         | Edit::Samples(_)

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::analysis::{Analysis, analyse};
 use crate::document::read_document;
 use crate::numerics::Watch;
-use crate::paper::{FigureSpec, Problem, compute_figure};
+use crate::paper::FigureSpec;
 
 /// A computation that is asked for.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -88,13 +88,5 @@ pub fn perform(request: &JobRequest, watch: &Watch) -> Option<JobReply> {
 fn figure(document: &crate::document::Document, id: &str, watch: &Watch) -> Result<FigureSpec, String> {
     let recipe = document.figures.iter().find(|recipe| recipe.id == id);
     let recipe = recipe.ok_or_else(|| format!("the document has no figure \"{id}\""))?;
-    let model = document.model().map_err(|error| error.to_string())?;
-    let scenario = document.scenario(&model.system);
-    let problem = Problem {
-        model: &model,
-        design: &document.design,
-        scenario: &scenario,
-        tolerance: &document.tolerance,
-    };
-    compute_figure(&problem, recipe, watch)
+    document.draw(recipe, watch)
 }
