@@ -16,6 +16,7 @@ mod follow;
 mod follow_kept;
 mod history;
 mod job;
+mod light;
 mod model_edits;
 mod poles;
 mod start;
