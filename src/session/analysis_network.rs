@@ -1,6 +1,7 @@
 //! What follows from a network: its structure and what it shows as a whole; of a large one without ever expanding it.
 
-use super::analysis::{Analysis, Light, MethodLight, Property, Simulation, judged};
+use super::analysis::{Analysis, Light, MethodLight, Property, Simulation};
+use super::light::judged;
 use crate::document::Document;
 use crate::numerics::{Complex64, RankDecision, Tolerance, Watch, eigenvalues, null_space};
 use crate::observer::hierarchical::{Hierarchy, conditions};

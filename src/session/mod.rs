@@ -20,6 +20,7 @@ mod follow_kept;
 mod free_report;
 mod history;
 mod job;
+mod light;
 mod model_edits;
 mod poles;
 mod start;
