@@ -158,21 +158,21 @@ fn read_series(
         )
     })?;
     let limit = match quantity {
-        Quantity::UnknownInput | Quantity::UnknownInputEstimate | Quantity::UnknownInputError => {
-            sizes.unknown
-        }
-        Quantity::Input => sizes.inputs,
-        Quantity::Output => sizes.outputs,
         Quantity::Whole | Quantity::WholeEstimate | Quantity::WholeError if sizes.subsystems == 0 => {
             return Err(show.error("z is the state of a network as a whole; this system is no network"));
         }
-        // how many states the whole has follows from ranks, so that the figure judges their number
+        // how many components the whole has follows from ranks, so that the figure judges their numbers
         Quantity::State
         | Quantity::Estimate
         | Quantity::Error
         | Quantity::Whole
         | Quantity::WholeEstimate
         | Quantity::WholeError => sizes.states,
+        Quantity::UnknownInput | Quantity::UnknownInputEstimate | Quantity::UnknownInputError => {
+            sizes.unknown
+        }
+        Quantity::Input => sizes.inputs,
+        Quantity::Output => sizes.outputs,
     };
     if index >= limit {
         return Err(show.error(format!("the system has only {limit} of these")));

@@ -2,6 +2,7 @@
 
 pub mod comparison;
 mod cursor;
+mod draw;
 mod duplicates;
 mod entry;
 mod error;
@@ -11,6 +12,7 @@ mod figures;
 mod import;
 mod import_cells;
 mod import_latex;
+mod initial;
 mod json;
 pub mod limits;
 mod link;
@@ -27,6 +29,7 @@ pub use error::DocumentError;
 pub use export_csv::{figure_to_csv, trajectory_to_csv};
 pub use export_svg::figure_to_svg;
 pub use import::{ImportError, PastedMatrix, matrix_from_text};
+pub use initial::InitialFormula;
 pub use json::to_json;
 pub use link::{LinkError, from_link_fragment, is_link_fragment, to_link_fragment};
 pub use matrix_text::{MatrixSyntax, matrix_to_text};

@@ -2,7 +2,8 @@
 #![expect(non_snake_case, reason = "keys are matrix letters")]
 
 use super::cursor::{Cursor, Object, parse};
-use super::entry::{Entry, EntryMatrix};
+use super::entry::EntryMatrix;
+use super::initial::read_initial;
 use super::limits::{
     MAX_HORIZON, MAX_KEPT, MAX_POLES, MAX_SAMPLES, MAX_SIDE, MAX_SPARSE_ENTRIES, MAX_SUBSYSTEMS,
 };
@@ -71,6 +72,7 @@ impl ScenarioData {
             horizon: 10.0,
             samples: 501,
             x0: Vec::new(),
+            x0_formula: None,
             u: Vec::new(),
             d: Vec::new(),
             noise: Vec::new(),
@@ -358,11 +360,14 @@ fn scenario(cursor: &Cursor<'_>, sizes: &Sizes) -> Result<ScenarioData, Document
     let empty = ScenarioData::empty();
     let horizon = object.get("horizon").map_or(Ok(empty.horizon), |c| c.number_in(1e-6, MAX_HORIZON))?;
     let samples = object.get("samples").map_or(Ok(empty.samples as u64), |c| c.whole_in(2, MAX_SAMPLES))?;
+    let (x0, x0_formula) =
+        object.get("x0").map_or(Ok((Vec::new(), None)), |c| read_initial(&c, sizes.states))?;
     let signals = |key, count, of| object.get(key).map_or(Ok(Vec::new()), |c| read_signals(&c, count, of));
     Ok(ScenarioData {
         horizon,
         samples: usize::try_from(samples).unwrap_or(usize::MAX),
-        x0: object.get("x0").map_or(Ok(Vec::new()), |c| initial_state(&c, sizes.states))?,
+        x0,
+        x0_formula,
         u: signals("u", sizes.inputs, "known inputs (columns of B)")?,
         d: signals("d", sizes.unknown, "unknown inputs (columns of D)")?,
         noise: signals("noise", sizes.outputs, "outputs (rows of C)")?,
@@ -389,14 +394,6 @@ pub(super) fn read_free(cursor: &Cursor<'_>, sizes: &Sizes) -> Result<FreeData, 
         ));
     }
     Ok(FreeData { signals: list, feedback: feedback.map(|(_, matrix)| matrix) })
-}
-
-fn initial_state(cursor: &Cursor<'_>, n: usize) -> Result<Vec<Entry>, DocumentError> {
-    let items = cursor.list(MAX_SIDE.max(n), "numbers")?;
-    if items.len() != n {
-        return Err(cursor.error(format!("one number for each of the {n} states is needed")));
-    }
-    items.iter().map(Entry::read).collect()
 }
 
 /// A list of signals; a plain number is a constant signal. Empty, or one for each.

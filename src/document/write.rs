@@ -142,13 +142,15 @@ pub(super) fn signals_value(signals: &[Signal]) -> Value {
 }
 
 fn scenario_value(data: &ScenarioData) -> Value {
-    let ScenarioData { horizon, samples, x0, u, d, noise, uncertainty, free } = data;
+    let ScenarioData { horizon, samples, x0, x0_formula, u, d, noise, uncertainty, free } = data;
     let mut map = Map::new();
     map.insert("horizon".to_owned(), number(*horizon));
     map.insert("samples".to_owned(), json!(samples));
     if !x0.is_empty() {
         let row = EntryMatrix::from_entries(1, x0.len(), x0.clone()).write();
         map.insert("x0".to_owned(), row[0].clone());
+    } else if let Some(formula) = x0_formula {
+        map.insert("x0".to_owned(), json!(formula.text()));
     }
     for (key, signals) in [("u", u), ("d", d), ("noise", noise)] {
         if !signals.is_empty() {

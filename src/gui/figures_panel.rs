@@ -165,7 +165,11 @@ fn rms_line(ui: &mut Ui, simulation: &Simulation) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 10.0;
         ui.colored_label(theme::faint(ui), "rms error over the second half:");
-        let states = simulation.rms.iter().enumerate().map(|(k, rms)| (format!("x{}", k + 1), k, rms));
+        if let Some(rms) = simulation.rms_whole {
+            ui.label(format!("z {}", short(rms)));
+        }
+        let states = simulation.estimated.iter().zip(&simulation.rms);
+        let states = states.map(|(&k, rms)| (format!("x{}", k + 1), k, rms));
         let unknown =
             simulation.rms_unknown.iter().enumerate().map(|(k, rms)| (format!("d{}", k + 1), 7 + k, rms));
         for (name, colour, rms) in states.chain(unknown) {

@@ -10,6 +10,7 @@ mod recipe;
 mod run;
 pub mod standard;
 mod standard_comparison;
+pub mod standard_network;
 mod standard_trade_off;
 
 pub use compute::{compute_figure, compute_network_figure};
@@ -38,7 +39,7 @@ pub struct Example {
 }
 
 /// All examples, the first of which opens when nothing else is asked for.
-pub const EXAMPLES: [Example; 8] = [
+pub const EXAMPLES: [Example; 10] = [
     Example {
         key: "proportional-integral",
         title: "Koenig and Mammar: unknown input by an integral loop",
@@ -63,6 +64,18 @@ pub const EXAMPLES: [Example; 8] = [
         title: "Decentralized observers of two interconnected subsystems",
         teaches: "Two local observers that do not know each other's states: decoupled exactly, or attenuated.",
         text: include_str!("../../assets/examples/decentralized.json"),
+    },
+    Example {
+        key: "hierarchical",
+        title: "Ishizaki et al.: a network, as a whole and one by one",
+        teaches: "One observer for what a network shows as a whole; local ones are plugged in and out without touching it.",
+        text: include_str!("../../assets/examples/hierarchical.json"),
+    },
+    Example {
+        key: "network-ring",
+        title: "A ring of a thousand subsystems",
+        teaches: "Five thousand states, estimated through six: the coupling has rank three, and only that counts.",
+        text: include_str!("../../assets/examples/network-ring.json"),
     },
     Example {
         key: "unseen-impulse",
@@ -105,7 +118,7 @@ pub struct Paper {
 }
 
 /// The papers that are implemented.
-pub const PAPERS: [Paper; 4] = [
+pub const PAPERS: [Paper; 5] = [
     Paper {
         key: "000",
         citation: "\"Decentralized observers for large scale interconnected singular systems\", conference paper on the \
@@ -121,6 +134,11 @@ pub const PAPERS: [Paper; 4] = [
         citation: "M. Zerrougui, M. Darouach, L. Boutat-Baddas and H. Souley Ali, \"H-infinity observers design for a \
                    class of continuous time nonlinear singular systems\", Journal of Control Science and Engineering \
                    2011, article 967571",
+    },
+    Paper {
+        key: "003",
+        citation: "T. Ishizaki, Y. Sakai, K. Kashima and J. Imura, \"Hierarchical decentralized observer design for linearly \
+                   coupled network systems\"",
     },
     Paper {
         key: "004",

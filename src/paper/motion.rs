@@ -24,6 +24,8 @@ pub struct Motion {
     z: DMatrix<f64>,
     /// Its estimate.
     z_hat: DMatrix<f64>,
+    /// Components that belong to one direction of the coupling.
+    mu: usize,
     source: Source,
 }
 
@@ -57,6 +59,7 @@ impl Motion {
             estimated: design.estimated_states(trajectory.x.nrows()),
             z,
             z_hat,
+            mu: design.hierarchical.as_deref().map_or(0, |observer| observer.hierarchy.M.ncols()),
             source: Source::System(Box::new(trajectory)),
         }
     }
@@ -80,6 +83,7 @@ impl Motion {
             estimated: observer.estimated_states(),
             z: trajectory.z,
             z_hat: trajectory.z_hat,
+            mu: observer.hierarchy.M.ncols(),
             source: Source::Network(Box::new(parts)),
         }
     }
@@ -102,6 +106,11 @@ impl Motion {
     /// Number of components of the whole of a network; zero for other plants and designs.
     pub fn order_of_whole(&self) -> usize {
         self.z.nrows()
+    }
+
+    /// How many components of the whole belong to each direction of the coupling.
+    pub fn block_of_whole(&self) -> usize {
+        self.mu
     }
 
     /// Points of a component over time; empty when it was not simulated, or is not estimated.

@@ -119,7 +119,7 @@ fn keeps_meaning(field: &Field, document: &Document, resized: bool) -> bool {
     };
     let lmi = &document.design.lmi;
     match field {
-        Field::Poles => true,
+        Field::Poles | Field::InitialFormula => true,
         Field::Cell(_)
         | Field::Initial(_)
         | Field::Signal(..)
@@ -182,6 +182,7 @@ fn typed_field(edit: &Edit) -> Option<Field> {
         Edit::Cell { cell, .. } => Some(Field::Cell(*cell)),
         Edit::Poles(_) | Edit::MovePole { .. } => Some(Field::Poles),
         Edit::Initial { state, .. } => Some(Field::Initial(*state)),
+        Edit::InitialFormula(_) => Some(Field::InitialFormula),
         Edit::Signal { list, index, .. } => Some(Field::Signal(*list, *index)),
         Edit::UncertaintyCell { row, column, frequency, .. } => {
             Some(Field::Uncertainty(*row, *column, *frequency))
@@ -258,6 +259,7 @@ fn change(document: &mut Document, edit: Edit) -> Edited {
         Edit::Free(edit) => return edit_free::change(document, edit),
         Edit::Compare(edit) => return edit_compare::change(document, edit),
         Edit::Initial { .. }
+        | Edit::InitialFormula(_)
         | Edit::Signal { .. }
         | Edit::Horizon(_)
         | Edit::Samples(_)

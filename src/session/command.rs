@@ -103,6 +103,8 @@ pub enum Edit {
         /// What was typed.
         text: String,
     },
+    /// Initial states of all components as one expression in `i`, as typed; empty for zeros.
+    InitialFormula(String),
     /// A signal, as typed.
     Signal {
         /// Which list.

@@ -7,7 +7,7 @@ use super::comparison::{ComparisonView, compared};
 use super::free_report::FreeReport;
 use crate::document::{Document, Subject, read_document};
 use crate::numerics::Watch;
-use crate::paper::{FigureSpec, Problem, compute_figure, trade_off_figure};
+use crate::paper::{FigureSpec, trade_off_figure};
 use crate::simulation::trade_off;
 
 /// A computation that is asked for.
@@ -102,16 +102,10 @@ fn figure(document: &Document, id: &str, watch: &Watch) -> Result<FigureSpec, St
     }
     let recipe = document.figures.iter().find(|recipe| recipe.id == id);
     let recipe = recipe.ok_or_else(|| format!("the document has no figure \"{id}\""))?;
-    let model = document.model().map_err(|error| error.to_string())?;
-    let scenario = document.scenario(&model.system);
-    let problem = Problem {
-        model: &model,
-        design: &document.design,
-        scenario: &scenario,
-        tolerance: &document.tolerance,
-    };
-    let mut figure = compute_figure(&problem, recipe, watch)?;
-    figure.notes = FreeReport::without_own(FreeReport::new(document, &model).as_ref(), figure.notes);
+    let mut figure = document.draw(recipe, watch)?;
+    if let Ok(Subject::Model(model)) = document.subject() {
+        figure.notes = FreeReport::without_own(FreeReport::new(document, &model).as_ref(), figure.notes);
+    }
     Ok(figure)
 }
 

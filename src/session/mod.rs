@@ -1,6 +1,8 @@
 //! L4: the application without a screen: state, commands, the one writer, jobs and what is derived.
 
 mod analysis;
+mod analysis_network;
+mod analysis_properties;
 mod apply;
 mod command;
 mod comparison;
@@ -18,6 +20,7 @@ mod follow_kept;
 mod free_report;
 mod history;
 mod job;
+mod light;
 mod model_edits;
 mod poles;
 mod start;

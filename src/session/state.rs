@@ -29,6 +29,8 @@ pub enum Field {
     Poles,
     /// The initial state of one component.
     Initial(usize),
+    /// The initial states of all components as one expression.
+    InitialFormula,
     /// A signal.
     Signal(SignalList, usize),
     /// A cell of the uncertainty: row, column, whether it is the frequency.

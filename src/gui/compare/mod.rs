@@ -27,6 +27,9 @@ pub(super) fn figure<'a>(session: &Session, derived: &'a Derived) -> Option<&'a 
     session.view().compared.of(&view.figures)
 }
 
+/// Narrower panels are drawn below each other.
+const NARROW_PANEL: f32 = 280.0;
+
 /// Draws the comparison.
 pub(super) fn show(
     ui: &mut Ui,
@@ -103,10 +106,11 @@ fn below(ui: &mut Ui, session: &Session, view: &ComparisonView, out: &mut Output
     };
     ui.label(RichText::new(&figure.caption).small());
     let panels: Vec<&Panel> = figure.panels.iter().collect();
-    let rows = panels.len().div_ceil(figure.columns.max(1));
-    let rows = if ui.available_width() < 400.0 { panels.len() } else { rows };
+    // legends with the names of all designs need width
+    let columns = if ui.available_width() < 2.0 * NARROW_PANEL { 1 } else { figure.columns.max(1) };
+    let rows = panels.len().div_ceil(columns);
     let size = vec2(ui.available_width(), rows as f32 * PANEL_HEIGHT);
-    ui.allocate_ui(size, |ui| panels_ui(ui, &panels, figure.columns, &figure.id));
+    ui.allocate_ui(size, |ui| panels_ui(ui, &panels, columns, &figure.id));
 }
 
 /// Buttons that save the table.

@@ -221,7 +221,9 @@ fn value(ui: &mut Ui, rect: Rect, line: &TableLine, cell: &TableCell) {
         (_, "verified") => RichText::new(&cell.text).color(theme::good(ui)),
         ("Status", _) => RichText::new(&cell.text).color(theme::near(ui)),
         ("Method", _) => RichText::new(&cell.text).small(),
-        _ if cell.value.is_none() => RichText::new(&cell.text).color(theme::faint(ui)),
+        _ if cell.value.is_none() && line.group != Group::Design => {
+            RichText::new(&cell.text).color(theme::faint(ui))
+        }
         _ => RichText::new(&cell.text),
     };
     let text = if cell.best { text.strong() } else { text };

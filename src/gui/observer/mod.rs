@@ -22,6 +22,7 @@ pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Wid
     ui.add_space(theme::ITEM_GAP);
     ui.label(RichText::new("Observer").heading());
     methods::tiles(ui, session, derived, out);
+    methods::reasons(ui, derived);
     methods::orders(ui, session, out);
     badge::stale(ui, session, derived);
     let assessment = match derived.analysis().map(|analysis| &analysis.assessment) {

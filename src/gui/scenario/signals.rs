@@ -5,6 +5,7 @@ use egui::{Id, Ui};
 use super::super::text_field::text_field;
 use super::super::{Output, Widgets, plot, theme};
 use super::{Sizes, group, named};
+use crate::document::Entry;
 use crate::session::{Edit, Field, Session, SignalList};
 use crate::system::Signal;
 
@@ -84,10 +85,14 @@ pub(super) fn initial(
     if states == 0 {
         return;
     }
-    let x0 = &session.document().scenario.x0;
+    let scenario = &session.document().scenario;
+    let x0 = &scenario.x0;
+    let formula = scenario.x0_formula.as_ref().filter(|_| x0.is_empty());
+    let values = formula.map_or_else(Vec::new, |formula| formula.values(states));
     ui.label("x(0) =");
     for state in 0..states {
-        let shown = x0.get(state).map_or_else(|| "0".to_owned(), crate::document::Entry::shown);
+        let computed = || values.get(state).map_or(Entry::number(0.0), |value| Entry::number(*value));
+        let shown = x0.get(state).cloned().unwrap_or_else(computed).shown();
         let draft = session.draft(&Field::Initial(state));
         let id = Id::unique(("initial", state));
         let name = format!("x{}(0)", state + 1);
