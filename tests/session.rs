@@ -9,9 +9,9 @@ use descry::numerics::{Complex64, Watch};
 use descry::observer::{GivenObserver, Method, Order, Verdict};
 use descry::paper::EXAMPLES;
 use descry::session::{
-    Analysis, Cell, Command, Derived, Edit, Field, Fill, GivenPart, JobReply, JobRequest, LipschitzEdit,
-    LipschitzMatrix, LmiEdit, Outcome, PartitionEdit, Session, Share, Show, SignalList, Size, Tab, Task,
-    perform, update,
+    Analysis, Cell, Command, Derived, Edit, Field, Fill, FreeEdit, GivenPart, JobReply, JobRequest,
+    LipschitzEdit, LipschitzMatrix, LmiEdit, Outcome, PartitionEdit, Session, Share, Show, SignalList, Size,
+    Tab, Task, perform, update,
 };
 use descry::system::TimeDomain;
 use proptest::prelude::*;
@@ -322,6 +322,20 @@ fn the_chosen_figure_is_computed_when_it_is_on_screen() {
 }
 
 #[test]
+fn the_sweep_is_computed_when_it_is_on_screen() {
+    let (mut session, mut derived) = (session(), Derived::default());
+    let first = derived.next_request(&session).unwrap();
+    derived.receive(perform(&first, &Watch::none()).unwrap());
+    update(&mut session, Command::Show(Show::Tab(Tab::TradeOff)));
+    assert!(derived.trade_off().is_none(), "not asked yet");
+    let request = derived.next_request(&session).unwrap();
+    derived.receive(perform(&request, &Watch::none()).unwrap());
+    let figure = derived.trade_off().unwrap().as_ref().unwrap();
+    assert_eq!(figure.panels.len(), 3, "gained, cost, one against the other");
+    assert!(derived.next_request(&session).is_none(), "once for each revision");
+}
+
+#[test]
 fn progress_can_stop_a_computation() {
     let session = session();
     let request = Derived::default().next_request(&session).unwrap();
@@ -499,6 +513,19 @@ fn a_lipschitz_edit() -> impl Strategy<Value = Edit> {
     .prop_map(Edit::Lipschitz)
 }
 
+fn a_free_edit() -> impl Strategy<Value = Edit> {
+    let whole = (0..3_usize, 1..7_usize, number())
+        .prop_map(|(rows, columns, value)| nalgebra::DMatrix::from_element(rows, columns, value));
+    let pasted = prop_oneof![Just("1 2 3 4".to_owned()), Just("[1 0 0 0; 0 1 0 -1/3]".to_owned()), typed()];
+    prop_oneof![
+        2 => (0..4_usize, typed()).prop_map(|(index, text)| FreeEdit::Signal { index, text }),
+        2 => (0..3_usize, 0..7_usize, typed()).prop_map(|(row, column, text)| FreeEdit::Cell { row, column, text }),
+        1 => prop::option::of(whole).prop_map(FreeEdit::Feedback),
+        1 => pasted.prop_map(FreeEdit::Paste),
+    ]
+    .prop_map(Edit::Free)
+}
+
 fn a_scenario_edit() -> impl Strategy<Value = Edit> {
     let list = prop::sample::select(vec![SignalList::Known, SignalList::Unknown, SignalList::Noise]);
     prop_oneof![
@@ -523,6 +550,7 @@ fn a_command() -> impl Strategy<Value = Command> {
         3 => a_partition_edit().prop_map(Command::Edit),
         3 => a_lipschitz_edit().prop_map(Command::Edit),
         4 => a_scenario_edit().prop_map(Command::Edit),
+        3 => a_free_edit().prop_map(Command::Edit),
         1 => Just(Command::Undo),
         1 => Just(Command::Redo),
         1 => prop::sample::select(keys).prop_map(|key| Command::OpenExample { key }),
@@ -573,6 +601,29 @@ proptest! {
         edit(&mut session, Edit::Horizon(1.0));
         for one in edits {
             edit(&mut session, one);
+        }
+        let _found = analysis(&session);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// From the wide example on: its figures patch the free variables, too.
+    #[test]
+    fn an_edited_wide_system_reads_back_and_is_analysed_without_panic(
+        edits in prop::collection::vec(
+            prop_oneof![2 => a_free_edit(), 2 => a_size(), 1 => a_plant_edit(), 1 => a_design_edit()],
+            1..10,
+        )
+    ) {
+        let mut session = opened("input-decoupled");
+        edit(&mut session, Edit::Samples(30));
+        edit(&mut session, Edit::Horizon(1.0));
+        for one in edits {
+            let name = format!("{one:?}");
+            edit(&mut session, one);
+            check(&session, &name);
         }
         let _found = analysis(&session);
     }

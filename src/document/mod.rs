@@ -1,5 +1,6 @@
 //! L3: the versioned file format, links, pasted matrices, exports.
 
+pub mod comparison;
 mod cursor;
 mod draw;
 mod duplicates;
@@ -34,8 +35,8 @@ pub use json::to_json;
 pub use link::{LinkError, from_link_fragment, is_link_fragment, to_link_fragment};
 pub use matrix_text::{MatrixSyntax, matrix_to_text};
 pub use model::{
-    Coupling, DescriptorData, Document, FreeData, KeptDesign, LipschitzData, Matrix, NetworkData, PlantData,
-    ScenarioData, Subject, UncertaintyData,
+    CHOSEN, Coupling, DescriptorData, Document, FreeData, KeptDesign, LipschitzData, Matrix, NetworkData,
+    PlantData, ScenarioData, Subject, UncertaintyData,
 };
 pub use read::{Sizes, read_document};
 pub use write::{write_document, write_document_compact};

@@ -9,6 +9,7 @@ use super::limits::MAX_EXPANDED;
 use crate::numerics::Tolerance;
 use crate::observer::DesignChoice;
 use crate::paper::FigureRecipe;
+use crate::simulation::comparison::Contender;
 use crate::simulation::{FreeVariables, Scenario};
 use crate::system::{
     CouplingMatrix, DescriptorSystem, LipschitzTerm, Model, Network, Signal, Subsystem, SystemError,
@@ -37,6 +38,9 @@ pub struct Document {
     /// Figures that can be drawn from it.
     pub figures: Vec<FigureRecipe>,
 }
+
+/// The chosen design's name in a comparison.
+pub const CHOSEN: &str = "chosen";
 
 /// A design that is kept beside the chosen one.
 #[derive(Clone, Debug, PartialEq)]
@@ -374,6 +378,13 @@ impl Document {
         let system = data.system()?;
         let lipschitz = data.lipschitz.as_ref().and_then(|lipschitz| lipschitz.term(system.n_states()));
         Ok(Model { lipschitz, partition: data.partition.clone(), ..Model::from(system) })
+    }
+
+    /// The chosen design and those that are kept beside it, for a comparison.
+    pub fn contenders(&self) -> Vec<Contender<'_>> {
+        let chosen = Contender { name: CHOSEN, choice: &self.design };
+        let kept = self.kept.iter().map(|kept| Contender { name: &kept.name, choice: &kept.design });
+        std::iter::once(chosen).chain(kept).collect()
     }
 
     /// The scenario with missing signals and initial states filled by zeros.

@@ -43,7 +43,12 @@ fn compute(subject: Subject<'_>, recipe: &FigureRecipe, watch: &Watch) -> Result
         if !run.design.verification.verified() {
             notes.push(format!("{}: the design is not verified", run.name));
         }
-        notes.extend(run.motion.iter().flat_map(Motion::notes).cloned());
+        for note in run.motion.iter().flat_map(Motion::notes) {
+            // runs of one plant have the same free states: said once
+            if !notes.contains(note) {
+                notes.push(note.clone());
+            }
+        }
     }
     let mut panels = Vec::new();
     for panel in &recipe.panels {

@@ -4,9 +4,11 @@ use serde::{Deserialize, Serialize};
 
 use super::analysis_network as of_network;
 use super::analysis_properties::properties;
+use super::free_report::FreeReport;
+use super::light::lights;
 use crate::document::{Document, Subject};
 use crate::numerics::{Complex64, Watch};
-use crate::observer::{Assessment, Condition, DesignChoice, Method, Verdict, assess, conditions};
+use crate::observer::{Assessment, Method, Verdict, assess};
 use crate::paper::{FigureSpec, Motion, standard};
 use crate::system::Model;
 use crate::system::properties::finite_eigenvalues;
@@ -26,6 +28,8 @@ pub struct Analysis {
     pub simulation: Result<Simulation, String>,
     /// Frequency responses of the design.
     pub bode: Option<FigureSpec>,
+    /// What the equations leave free, for a plant that is not square.
+    pub free: Option<FreeReport>,
 }
 
 /// A property of the system with its evidence in words.
@@ -109,17 +113,18 @@ pub fn analyse(document: &Document, watch: &Watch) -> Option<Analysis> {
     }
     let assessment =
         assess(&model, &document.design, tolerance, &watch.part(0.1, 0.8)).map_err(|error| error.to_string());
-    // the conditions of the chosen method are known already
-    let known = assessment.as_ref().ok().map(|assessment| assessment.conditions.as_slice());
-    let known = |method: Method| known.filter(|_| method == document.design.method);
-    let methods = Method::ALL.iter().map(|m| light(&model, document, *m, known(*m))).collect();
+    let methods = lights(&model, document, assessment.as_ref());
     if !watch.go_on(0.8, "simulation") {
         return None;
     }
-    let simulation = simulation(document, &model, assessment.as_ref(), &watch.part(0.8, 1.0));
+    let free = FreeReport::new(document, &model);
+    let simulation = simulation(document, &model, assessment.as_ref(), &watch.part(0.8, 1.0)).map(|found| {
+        let notes = FreeReport::without_own(free.as_ref(), found.notes);
+        Simulation { notes, ..found }
+    });
     let design = assessment.as_ref().ok().and_then(|a| a.outcome.as_ref().ok());
     let bode = design.and_then(|design| standard::bode(system, design));
-    Some(Analysis { properties, plant_eigenvalues, methods, assessment, simulation, bode })
+    Some(Analysis { properties, plant_eigenvalues, methods, assessment, simulation, bode, free })
 }
 
 impl Analysis {
@@ -131,6 +136,7 @@ impl Analysis {
             assessment: Err(why.to_owned()),
             simulation: Err(why.to_owned()),
             bode: None,
+            free: None,
         }
     }
 
@@ -179,42 +185,4 @@ fn simulation(
         unknown_input: standard::unknown_inputs(&trajectory, system.time),
         notes,
     })
-}
-
-fn light(model: &Model, document: &Document, method: Method, known: Option<&[Condition]>) -> MethodLight {
-    let light = |light, why: &str| MethodLight { method, light, why: why.to_owned() };
-    if let Some(why) = method.missing(model) {
-        return light(Light::Missing, &why);
-    }
-    let asked;
-    let found = if let Some(known) = known {
-        known
-    } else {
-        let chosen = &document.design;
-        // an order that the method does not have stands for its usual one
-        let usual = method.orders().first().copied().unwrap_or_default();
-        let order = if method.orders().contains(&chosen.order) { chosen.order } else { usual };
-        let choice = DesignChoice { method, order, ..chosen.clone() };
-        match conditions(model, &choice, &document.tolerance) {
-            Ok(found) => {
-                asked = found;
-                asked.as_slice()
-            }
-            Err(error) => return light(Light::Fails, &error.to_string()),
-        }
-    };
-    judged(method, found)
-}
-
-/// The light that conditions give a method.
-pub(super) fn judged(method: Method, found: &[Condition]) -> MethodLight {
-    let light = |light, why: &str| MethodLight { method, light, why: why.to_owned() };
-    let needed = || found.iter().filter(|condition| condition.needed);
-    if let Some(failed) = needed().find(|condition| !condition.verdict.holds()) {
-        return light(Light::Fails, &format!("condition {} fails: {}", failed.label, failed.summary));
-    }
-    match needed().find(|condition| condition.verdict == Verdict::Fragile) {
-        Some(near) => light(Light::Near, &format!("condition {} holds narrowly", near.label)),
-        None => light(Light::Exists, "all conditions hold"),
-    }
 }

@@ -1,6 +1,7 @@
 //! What follows from a network: its structure and what it shows as a whole; of a large one without ever expanding it.
 
-use super::analysis::{Analysis, Light, MethodLight, Property, Simulation, judged};
+use super::analysis::{Analysis, Light, MethodLight, Property, Simulation};
+use super::light::judged;
 use crate::document::Document;
 use crate::numerics::{Complex64, RankDecision, Tolerance, Watch, eigenvalues, null_space};
 use crate::observer::hierarchical::{Hierarchy, conditions};
@@ -34,7 +35,7 @@ pub(super) fn analyse(document: &Document, network: &Network, watch: &Watch) -> 
         return None;
     }
     let simulation = simulation(document, network, assessment.as_ref());
-    Some(Analysis { properties, plant_eigenvalues, methods, assessment, simulation, bode: None })
+    Some(Analysis { properties, plant_eigenvalues, methods, assessment, simulation, bode: None, free: None })
 }
 
 fn light(method: Method, network: &Network, found: &Result<Vec<Condition>, String>) -> MethodLight {

@@ -1,11 +1,15 @@
 //! Carrying out an edit: the change, what follows from it, drafts, and the step of the history.
 
 use super::command::Edit;
+use super::edit_compare::CompareEdit;
+use super::edit_free::FreeEdit;
 use super::follow::follow;
 use super::model_edits::{GivenPart, LipschitzEdit, LmiEdit, PartitionEdit};
 use super::state::{Draft, Field, Message, Session};
 use super::update::{Edited, replace};
-use super::{edit_lipschitz, edit_lmi, edit_partition, edit_plant, edit_scenario, poles};
+use super::{
+    edit_compare, edit_free, edit_lipschitz, edit_lmi, edit_partition, edit_plant, edit_scenario, poles,
+};
 use crate::document::{Document, Entry, EntryMatrix, PlantData, limits};
 
 /// Carries out an edit as one step, or as a part of the drag that it belongs to.
@@ -18,6 +22,8 @@ pub(super) fn apply(session: &mut Session, edit: Edit) {
         Edit::Fill { matrix, .. } => Some(*matrix),
         _ => None,
     };
+    let fed_back = matches!(edit, Edit::Free(FreeEdit::Feedback(_) | FreeEdit::Paste(_)));
+    let exchanged = matches!(&edit, Edit::Compare(edit) if edit_compare::exchanges(edit));
     let waiting = if ends { waiting_fields(&edit) } else { None };
     let mut document = (*session.document).clone();
     let (edited, told) = changed(&mut document, &session.document, edit);
@@ -28,10 +34,16 @@ pub(super) fn apply(session: &mut Session, edit: Edit) {
             }
             let resized = sizes(&session.document) != sizes(&document);
             session.drafts.retain(|field, _| keeps_meaning(field, &document, resized));
+            if exchanged {
+                session.drafts.retain(|field, _| !edit_compare::belongs_to_a_design(field));
+            }
             if let Some(matrix) = overwritten {
                 session
                     .drafts
                     .retain(|field, _| !matches!(field, Field::Cell(cell) if cell.matrix == matrix));
+            }
+            if fed_back {
+                session.drafts.retain(|field, _| !matches!(field, Field::FreeFeedback(..)));
             }
             replace(session, document, drag.map(|(key, _)| key));
             if !told.is_empty() {
@@ -108,7 +120,11 @@ fn keeps_meaning(field: &Field, document: &Document, resized: bool) -> bool {
     let lmi = &document.design.lmi;
     match field {
         Field::Poles | Field::InitialFormula => true,
-        Field::Cell(_) | Field::Initial(_) | Field::Signal(..) | Field::Uncertainty(..) => !resized,
+        Field::Cell(_)
+        | Field::Initial(_)
+        | Field::Signal(..)
+        | Field::Uncertainty(..)
+        | Field::FreeSignal(_) => !resized,
         Field::Rows(subsystem, row, column) => {
             let there = |rows: &nalgebra::DMatrix<f64>| *row < rows.nrows() && *column < rows.ncols();
             !resized && lmi.rows.get(*subsystem).is_some_and(there)
@@ -117,6 +133,8 @@ fn keeps_meaning(field: &Field, document: &Document, resized: bool) -> bool {
         Field::Lipschitz(..) => !resized && nonlinearity.is_some(),
         Field::Component(index) => nonlinearity.is_some_and(|lipschitz| *index < lipschitz.f.len()),
         Field::LipschitzConstant => nonlinearity.is_some(),
+        Field::FreeFeedback(..) => !resized && document.scenario.free.feedback.is_some(),
+        Field::KeptName(index) => *index < document.kept.len(),
     }
 }
 
@@ -178,6 +196,9 @@ fn typed_field(edit: &Edit) -> Option<Field> {
         }
         Edit::Lipschitz(LipschitzEdit::Component { index, .. }) => Some(Field::Component(*index)),
         Edit::Lipschitz(LipschitzEdit::Constant(_)) => Some(Field::LipschitzConstant),
+        Edit::Free(FreeEdit::Signal { index, .. }) => Some(Field::FreeSignal(*index)),
+        Edit::Free(FreeEdit::Cell { row, column, .. }) => Some(Field::FreeFeedback(*row, *column)),
+        Edit::Compare(CompareEdit::Rename { kept, .. }) => Some(Field::KeptName(*kept)),
         _ => None,
     }
 }
@@ -235,6 +256,8 @@ fn change(document: &mut Document, edit: Edit) -> Edited {
         }
         Edit::Partition(edit) => return edit_partition::change(document, edit),
         Edit::Lipschitz(edit) => return edit_lipschitz::change(document, edit),
+        Edit::Free(edit) => return edit_free::change(document, edit),
+        Edit::Compare(edit) => return edit_compare::change(document, edit),
         Edit::Initial { .. }
         | Edit::InitialFormula(_)
         | Edit::Signal { .. }

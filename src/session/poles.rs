@@ -106,6 +106,11 @@ pub(super) fn drag(document: &mut Document, index: usize, to: Complex64) {
     move_pole(&mut document.design.poles, index, to, (used, time == TimeDomain::Discrete));
 }
 
+/// How many poles the chosen design takes, as far as its list has as many; `None` for one without poles.
+pub(super) fn used(document: &Document) -> Option<usize> {
+    needed(document).map(|(needed, _)| needed.min(document.design.poles.len()))
+}
+
 /// How many poles the chosen order takes at most, and the time domain.
 fn needed(document: &Document) -> Option<(usize, TimeDomain)> {
     if document.design.method == Method::Hierarchical {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::command::{Cell, Place, SignalList, Tab, ThemeChoice};
+use super::command::{Cell, ComparedFigure, Place, SignalList, Tab, ThemeChoice};
 use super::history::History;
 use super::model_edits::{GivenPart, LipschitzMatrix};
 use crate::document::{Document, DocumentError, read_document, write_document_compact};
@@ -45,6 +45,12 @@ pub enum Field {
     Component(usize),
     /// The Lipschitz constant.
     LipschitzConstant,
+    /// The signal of a free variable.
+    FreeSignal(usize),
+    /// An entry of the feedback of the free variables: row, column.
+    FreeFeedback(usize, usize),
+    /// The name of a kept design, from zero.
+    KeptName(usize),
 }
 
 /// A text that was not understood; the last good value stays in force.
@@ -63,6 +69,8 @@ pub struct View {
     pub tab: Tab,
     /// The chosen figure of the document, by its id.
     pub figure: Option<String>,
+    /// The chosen figure of the comparison.
+    pub compared: ComparedFigure,
     /// The place that a narrow screen shows.
     pub place: Place,
     /// Light or dark.
