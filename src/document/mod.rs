@@ -19,6 +19,7 @@ mod link;
 mod lmi;
 mod matrix_text;
 mod model;
+mod network;
 mod pretty;
 mod read;
 pub mod report;

@@ -4,14 +4,12 @@
 use super::cursor::{Cursor, Object, parse};
 use super::entry::EntryMatrix;
 use super::initial::read_initial;
-use super::limits::{
-    MAX_HORIZON, MAX_KEPT, MAX_POLES, MAX_SAMPLES, MAX_SIDE, MAX_SPARSE_ENTRIES, MAX_SUBSYSTEMS,
-};
+use super::limits::{MAX_HORIZON, MAX_KEPT, MAX_POLES, MAX_SAMPLES, MAX_SIDE, MAX_SUBSYSTEMS};
 use super::lmi::read_lmi;
 use super::model::{
-    Coupling, DescriptorData, Document, FreeData, KeptDesign, LipschitzData, NetworkData, PlantData,
-    ScenarioData, UncertaintyData,
+    DescriptorData, Document, FreeData, KeptDesign, LipschitzData, PlantData, ScenarioData, UncertaintyData,
 };
+use super::network::read_network;
 use super::{DocumentError, VERSION, read_figures};
 use crate::numerics::{Complex64, Tolerance};
 use crate::observer::{DesignChoice, Method, Order};
@@ -160,7 +158,7 @@ fn descriptor(object: &Object<'_>) -> Result<DescriptorData, DocumentError> {
 }
 
 /// A system error as an error at the matrix's place.
-fn at_matrix(place: &str, error: &SystemError) -> DocumentError {
+pub(super) fn at_matrix(place: &str, error: &SystemError) -> DocumentError {
     match error {
         SystemError::Shape { matrix, found, needed, reason } => DocumentError::at(
             &format!("{place}.{matrix}"),
@@ -234,55 +232,6 @@ fn lipschitz(cursor: &Cursor<'_>, system: &DescriptorSystem) -> Result<Lipschitz
     }
     let constant = object.need("constant", "the Lipschitz constant is needed")?.number_in(0.0, 1e6)?;
     Ok(LipschitzData { G, F_L, f, constant })
-}
-
-fn read_network(cursor: &Cursor<'_>) -> Result<NetworkData, DocumentError> {
-    let object = cursor.object(&["a", "b", "c", "c_G", "c_L", "Gamma", "Psi", "local"])?;
-    let dense = |key| EntryMatrix::read(&object.need(key, "this matrix of the network is needed")?);
-    let coupling = |key| read_coupling(&object.need(key, "this matrix of the network is needed")?);
-    let mut data = NetworkData {
-        a: dense("a")?,
-        b: dense("b")?,
-        c: dense("c")?,
-        c_G: dense("c_G")?,
-        c_L: dense("c_L")?,
-        Gamma: coupling("Gamma")?,
-        Psi: coupling("Psi")?,
-        local: Vec::new(),
-    };
-    let big = data.Gamma.shape().0;
-    if let Some(local) = object.get("local") {
-        for item in local.list(MAX_SUBSYSTEMS, "subsystem numbers")? {
-            data.local.push(usize::try_from(item.whole_in(1, big as u64)?).unwrap_or(usize::MAX));
-        }
-    }
-    data.network().map_err(|error| at_matrix(cursor.path(), &error))?;
-    Ok(data)
-}
-
-fn read_coupling(cursor: &Cursor<'_>) -> Result<Coupling, DocumentError> {
-    if cursor.is_list() {
-        return EntryMatrix::read(cursor).map(Coupling::Dense);
-    }
-    let object = cursor.object(&["rows", "columns", "entries"])?;
-    let side = |key| -> Result<u64, DocumentError> {
-        object.need(key, "rows, columns and entries are needed")?.whole_in(1, MAX_SUBSYSTEMS as u64)
-    };
-    let (rows, columns) = (side("rows")?, side("columns")?);
-    let list = object.need("entries", "a list of [row, column, value] is needed")?;
-    let mut entries = Vec::new();
-    for item in list.list(MAX_SPARSE_ENTRIES, "entries")? {
-        let parts = item.list(3, "numbers")?;
-        let [row, column, value] = parts.as_slice() else {
-            return Err(item.error("three numbers are needed: [row, column, value]"));
-        };
-        let index = |cursor: &Cursor<'_>, limit| {
-            cursor.whole_in(1, limit).map(|i| usize::try_from(i).unwrap_or(usize::MAX))
-        };
-        entries.push((index(row, rows)?, index(column, columns)?, value.number()?));
-    }
-    let size = |n| usize::try_from(n).unwrap_or(usize::MAX);
-    Ok(Coupling::Sparse { rows: size(rows), columns: size(columns), entries })
 }
 
 /// Words of the design methods.

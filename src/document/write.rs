@@ -6,9 +6,9 @@ use super::entry::number;
 use super::figures::figure_value;
 use super::lmi::lmi_value;
 use super::model::{
-    Coupling, DescriptorData, Document, FreeData, KeptDesign, LipschitzData, Matrix, NetworkData, PlantData,
-    ScenarioData,
+    DescriptorData, Document, FreeData, KeptDesign, LipschitzData, Matrix, PlantData, ScenarioData,
 };
+use super::network::network_value;
 use super::pretty::pretty;
 use super::{EntryMatrix, VERSION};
 use crate::numerics::{Complex64, Tolerance};
@@ -87,25 +87,6 @@ fn subsystem_value(subsystem: &Subsystem) -> Value {
 
 fn lipschitz_value(data: &LipschitzData) -> Value {
     json!({ "G": data.G.write(), "F_L": data.F_L.write(), "f": data.f, "constant": number(data.constant) })
-}
-
-fn network_value(data: &NetworkData) -> Value {
-    json!({
-        "a": data.a.write(), "b": data.b.write(), "c": data.c.write(),
-        "c_G": data.c_G.write(), "c_L": data.c_L.write(),
-        "Gamma": coupling_value(&data.Gamma), "Psi": coupling_value(&data.Psi), "local": data.local,
-    })
-}
-
-fn coupling_value(coupling: &Coupling) -> Value {
-    match coupling {
-        Coupling::Dense(matrix) => matrix.write(),
-        Coupling::Sparse { rows, columns, entries } => {
-            let entries: Vec<Value> =
-                entries.iter().map(|(i, j, value)| json!([i, j, number(*value)])).collect();
-            json!({ "rows": rows, "columns": columns, "entries": entries })
-        }
-    }
 }
 
 fn design_value(design: &DesignChoice) -> Value {
