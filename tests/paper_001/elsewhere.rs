@@ -1,5 +1,8 @@
 //! The method on the examples of the other papers: what it says, and whether that helps.
 
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
 use super::*;
 use descry::document::read_document;
 use descry::numerics::Watch;

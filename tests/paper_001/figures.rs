@@ -1,5 +1,8 @@
 //! The example document and its figures.
 
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
 use super::*;
 use descry::document::{Document, read_document};
 use descry::numerics::Watch;

@@ -1,5 +1,8 @@
 //! Plants with free variables in time: the paper's example and cases with closed forms.
 
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
 use super::*;
 use descry::numerics::Watch;
 use descry::simulation::{FreeVariables, Scenario, SimulationError, Trajectory, Uncertainty, WidePlant};
