@@ -233,7 +233,13 @@ fn figures_are_checked() {
         ("/figures/0/panels/1/range", "[0, 1]", "figures[1].panels[2]", "must be positive"),
         ("/figures/0/panels/1/transfer", "\"u to y\"", "figures[1].panels[2].transfer", "\"d to e\""),
         ("/figures/0/panels/1/from", "2", "figures[1].panels[2].from", "a whole number from 1 to 1"),
-        (&format!("{series}/show"), "\"z1\"", "figures[1].panels[1].series[1].show", "x1_hat"),
+        (&format!("{series}/show"), "\"q1\"", "figures[1].panels[1].series[1].show", "x1_hat"),
+        (
+            &format!("{series}/show"),
+            "\"z1\"",
+            "figures[1].panels[1].series[1].show",
+            "this system is no network",
+        ),
         (&format!("{series}/show"), "\"x3\"", "figures[1].panels[1].series[1].show", "only 2 of these"),
         (&format!("{series}/show"), "\"u2\"", "figures[1].panels[1].series[1].show", "only 1 of these"),
         (
