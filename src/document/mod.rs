@@ -1,5 +1,6 @@
 //! L3: the versioned file format, links, pasted matrices, exports.
 
+mod coupling;
 mod cursor;
 mod duplicates;
 mod entry;
@@ -16,6 +17,7 @@ mod link;
 mod lmi;
 mod matrix_text;
 mod model;
+mod network;
 mod pretty;
 mod read;
 pub mod report;
@@ -33,6 +35,7 @@ pub use model::{
     Coupling, DescriptorData, Document, FreeData, KeptDesign, LipschitzData, Matrix, NetworkData, PlantData,
     ScenarioData, Subject, UncertaintyData,
 };
+pub use network::NetworkMatrix;
 pub use read::{Sizes, read_document};
 pub use write::{write_document, write_document_compact};
 

@@ -3,21 +3,18 @@
 use super::command::Edit;
 use super::follow::follow;
 use super::model_edits::{GivenPart, LipschitzEdit, LmiEdit, PartitionEdit};
+use super::network_edits::{NetworkCell, NetworkEdit};
 use super::state::{Draft, Field, Message, Session};
 use super::update::{Edited, replace};
-use super::{edit_lipschitz, edit_lmi, edit_partition, edit_plant, edit_scenario, poles};
-use crate::document::{Document, Entry, EntryMatrix, PlantData, limits};
+use super::{edit_lipschitz, edit_lmi, edit_network, edit_partition, edit_plant, edit_scenario, poles};
+use crate::document::{Document, Entry, EntryMatrix, Matrix, NetworkMatrix, PlantData, limits};
 
 /// Carries out an edit as one step, or as a part of the drag that it belongs to.
 pub(super) fn apply(session: &mut Session, edit: Edit) {
     let drag = drag_key(&edit);
     let ends = drag.as_ref().is_none_or(|(_, done)| *done);
     let field = typed_field(&edit);
-    let overwritten = match &edit {
-        Edit::Paste { cell, .. } => Some(cell.matrix),
-        Edit::Fill { matrix, .. } => Some(*matrix),
-        _ => None,
-    };
+    let overwritten = overwritten(&edit);
     let waiting = if ends { waiting_fields(&edit) } else { None };
     let mut document = (*session.document).clone();
     let (edited, told) = changed(&mut document, &session.document, edit);
@@ -28,11 +25,7 @@ pub(super) fn apply(session: &mut Session, edit: Edit) {
             }
             let resized = sizes(&session.document) != sizes(&document);
             session.drafts.retain(|field, _| keeps_meaning(field, &document, resized));
-            if let Some(matrix) = overwritten {
-                session
-                    .drafts
-                    .retain(|field, _| !matches!(field, Field::Cell(cell) if cell.matrix == matrix));
-            }
+            session.drafts.retain(|field, _| !overwritten.covers(field));
             replace(session, document, drag.map(|(key, _)| key));
             if !told.is_empty() {
                 session.message = Some(Message { text: told.join("; "), error: false });
@@ -48,6 +41,33 @@ pub(super) fn apply(session: &mut Session, edit: Edit) {
     }
     if let Some(waiting) = waiting {
         try_again(session, waiting);
+    }
+}
+
+/// The matrix that an edit writes anew as a whole: what was typed into its cells before is gone.
+enum Overwritten {
+    Nothing,
+    Matrix(Matrix),
+    Network(NetworkMatrix),
+}
+
+impl Overwritten {
+    fn covers(&self, field: &Field) -> bool {
+        match (self, field) {
+            (Self::Matrix(matrix), Field::Cell(cell)) => cell.matrix == *matrix,
+            (Self::Network(matrix), Field::Network(cell)) => cell.matrix == *matrix,
+            _ => false,
+        }
+    }
+}
+
+fn overwritten(edit: &Edit) -> Overwritten {
+    match edit {
+        Edit::Paste { cell, .. } => Overwritten::Matrix(cell.matrix),
+        Edit::Fill { matrix, .. } => Overwritten::Matrix(*matrix),
+        Edit::Network(NetworkEdit::Paste { cell, .. }) => Overwritten::Network(cell.matrix),
+        Edit::Network(NetworkEdit::Template { .. }) => Overwritten::Network(NetworkMatrix::Gamma),
+        _ => Overwritten::Nothing,
     }
 }
 
@@ -107,7 +127,9 @@ fn keeps_meaning(field: &Field, document: &Document, resized: bool) -> bool {
     };
     let lmi = &document.design.lmi;
     match field {
-        Field::Poles => true,
+        Field::Poles | Field::LocalPoles => true,
+        Field::Network(_) => !resized && is_network(document),
+        Field::Subsystems => is_network(document),
         Field::Cell(_) | Field::Initial(_) | Field::Signal(..) | Field::Uncertainty(..) => !resized,
         Field::Rows(subsystem, row, column) => {
             let there = |rows: &nalgebra::DMatrix<f64>| *row < rows.nrows() && *column < rows.ncols();
@@ -120,9 +142,16 @@ fn keeps_meaning(field: &Field, document: &Document, resized: bool) -> bool {
     }
 }
 
+fn is_network(document: &Document) -> bool {
+    matches!(document.plant, PlantData::Network(_))
+}
+
 /// Shapes of everything that is typed into cell by cell.
 fn sizes(document: &Document) -> Vec<(usize, usize)> {
-    let PlantData::Descriptor(data) = &document.plant else { return Vec::new() };
+    let data = match &document.plant {
+        PlantData::Descriptor(data) => data,
+        PlantData::Network(data) => return NetworkMatrix::ALL.map(|matrix| data.shape(matrix)).into(),
+    };
     let lipschitz = data.lipschitz.iter().flat_map(|lipschitz| [&lipschitz.G, &lipschitz.F_L]);
     data.matrices.iter().chain(lipschitz).map(EntryMatrix::shape).collect()
 }
@@ -142,6 +171,9 @@ fn drag_key(edit: &Edit) -> Option<(String, bool)> {
         Edit::Title(_) => Some(("title".to_owned(), false)),
         Edit::Notes(_) => Some(("notes".to_owned(), false)),
         Edit::Horizon(_) => Some(("horizon".to_owned(), false)),
+        Edit::Network(NetworkEdit::MoveLocalPole { index, done, .. }) => {
+            Some((format!("local pole {index}"), *done))
+        }
         _ => None,
     }
 }
@@ -177,6 +209,19 @@ fn typed_field(edit: &Edit) -> Option<Field> {
         }
         Edit::Lipschitz(LipschitzEdit::Component { index, .. }) => Some(Field::Component(*index)),
         Edit::Lipschitz(LipschitzEdit::Constant(_)) => Some(Field::LipschitzConstant),
+        Edit::Network(edit) => typed_into_network(edit),
+        _ => None,
+    }
+}
+
+fn typed_into_network(edit: &NetworkEdit) -> Option<Field> {
+    match edit {
+        NetworkEdit::Cell { cell, .. } => Some(Field::Network(*cell)),
+        NetworkEdit::Edge { to, from, .. } => {
+            Some(Field::Network(NetworkCell { matrix: NetworkMatrix::Gamma, row: *to, column: *from }))
+        }
+        NetworkEdit::Subsystems(_) => Some(Field::Subsystems),
+        NetworkEdit::LocalPoles(_) | NetworkEdit::MoveLocalPole { .. } => Some(Field::LocalPoles),
         _ => None,
     }
 }
@@ -234,6 +279,7 @@ fn change(document: &mut Document, edit: Edit) -> Edited {
         }
         Edit::Partition(edit) => return edit_partition::change(document, edit),
         Edit::Lipschitz(edit) => return edit_lipschitz::change(document, edit),
+        Edit::Network(edit) => return edit_network::change(document, edit),
         Edit::Initial { .. }
         | Edit::Signal { .. }
         | Edit::Horizon(_)

@@ -1,6 +1,7 @@
 //! Every intent of a user, as data: the menu, the shortcuts and the tests are made of these.
 
 use super::model_edits::{LipschitzEdit, LmiEdit, PartitionEdit};
+use super::network_edits::NetworkEdit;
 use crate::document::Matrix;
 use crate::numerics::Complex64;
 use crate::observer::{Method, Order};
@@ -19,6 +20,8 @@ pub enum Command {
         /// Its key.
         key: String,
     },
+    /// Begin with a small network of identical subsystems.
+    NewNetwork,
     /// Undo the last step.
     Undo,
     /// Redo what was undone.
@@ -146,6 +149,8 @@ pub enum Edit {
     Partition(PartitionEdit),
     /// The nonlinearity.
     Lipschitz(LipschitzEdit),
+    /// The network.
+    Network(NetworkEdit),
 }
 
 /// A cell of a matrix, rows and columns from zero.

@@ -106,6 +106,12 @@ pub(super) fn drag(document: &mut Document, index: usize, to: Complex64) {
     move_pole(&mut document.design.poles, index, to, (used, time == TimeDomain::Discrete));
 }
 
+/// Moves one pole of the local observers in the plane.
+pub(super) fn drag_local(document: &mut Document, index: usize, to: Complex64) {
+    let PlantData::Network(data) = &document.plant else { return };
+    move_pole(&mut document.design.local_poles, index, to, (data.a.shape().0, false));
+}
+
 /// How many poles the chosen order takes at most, and the time domain.
 fn needed(document: &Document) -> Option<(usize, TimeDomain)> {
     if document.design.method == Method::Hierarchical {
@@ -132,14 +138,14 @@ fn needed(document: &Document) -> Option<(usize, TimeDomain)> {
 ///
 /// New poles continue the list to the left of its fastest real part (discrete: between 0.3 and 0.7).
 pub(super) fn provide(document: &mut Document) {
+    if let (Method::Hierarchical, PlantData::Network(data)) = (document.design.method, &document.plant) {
+        let needed = data.a.shape().0;
+        lengthen(&mut document.design.local_poles, needed, TimeDomain::Continuous);
+        pair_up(&mut document.design.local_poles, needed, false);
+    }
     let Some((needed, time)) = needed(document) else { return };
     lengthen(&mut document.design.poles, needed, time);
     pair_up(&mut document.design.poles, needed, time == TimeDomain::Discrete);
-    if let (Method::Hierarchical, PlantData::Network(data)) = (document.design.method, &document.plant) {
-        let needed = data.a.shape().0;
-        lengthen(&mut document.design.local_poles, needed, time);
-        pair_up(&mut document.design.local_poles, needed, false);
-    }
 }
 
 /// Adds poles to a list until it has as many as are needed.

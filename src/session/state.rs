@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::command::{Cell, Place, SignalList, Tab, ThemeChoice};
 use super::history::History;
 use super::model_edits::{GivenPart, LipschitzMatrix};
+use super::network_edits::NetworkCell;
 use crate::document::{Document, DocumentError, read_document, write_document_compact};
 use crate::paper::EXAMPLES;
 
@@ -43,6 +44,12 @@ pub enum Field {
     Component(usize),
     /// The Lipschitz constant.
     LipschitzConstant,
+    /// A cell of a network's matrix.
+    Network(NetworkCell),
+    /// The number of subsystems of a network.
+    Subsystems,
+    /// The poles of the local observers.
+    LocalPoles,
 }
 
 /// A text that was not understood; the last good value stays in force.
