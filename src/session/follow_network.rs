@@ -211,27 +211,11 @@ fn decoupled(lmi: &mut LmiChoice, new: &Numbers) {
 /// Refuses a network that no document could hold any more.
 fn bounded(document: &Document) -> Result<(), String> {
     let PlantData::Network(data) = &document.plant else { return Ok(()) };
-    // each entry of a list stands on a line of its own
-    const NUMBER: usize = 24;
-    const LINE: usize = 48;
-    let entry = |entry: &Entry| entry.text.as_ref().map_or(NUMBER, |text| 2 * text.len());
-    let matrix = |matrix: &EntryMatrix| -> usize {
-        let (rows, columns) = matrix.shape();
-        let places = (0..rows).flat_map(|i| (0..columns).map(move |j| (i, j)));
-        places.filter_map(|(i, j)| matrix.entry(i, j)).map(entry).sum()
-    };
-    let coupling = |coupling: &Coupling| match coupling {
-        Coupling::Dense(written_out) => matrix(written_out),
-        Coupling::Sparse { entries, .. } => LINE * entries.len(),
-    };
-    let parts = [&data.a, &data.b, &data.c, &data.c_G, &data.c_L].map(matrix);
-    let states: usize = document.scenario.x0.iter().map(entry).sum();
-    let estimate = parts.iter().sum::<usize>()
-        + coupling(&data.Gamma)
-        + coupling(&data.Psi)
-        + states
-        + 8 * data.local.len();
-    if estimate < MAX_BYTES / 2 {
+    let matrices = [&data.a, &data.b, &data.c, &data.c_G, &data.c_L].map(matrix_bytes);
+    let coupling = coupling_bytes(&data.Gamma) + coupling_bytes(&data.Psi);
+    let states: usize = document.scenario.x0.iter().map(entry_bytes).sum();
+    // writing a large document out takes longer than a keystroke may: only where it could be too large
+    if matrices.iter().sum::<usize>() + coupling + states + 16 * data.local.len() < MAX_BYTES / 4 * 3 {
         return Ok(());
     }
     let found = write_document(document).len();
@@ -243,4 +227,30 @@ fn bounded(document: &Document) -> Result<(), String> {
         found as f64 / 1e6,
         MAX_BYTES as f64 / 1e6
     ))
+}
+
+/// Bytes that a number takes in a document, at most.
+fn number_bytes(value: f64) -> usize {
+    const SHORT: f64 = 1e4;
+    if value.fract() == 0.0 && value.abs() < SHORT { 5 } else { 24 }
+}
+
+fn entry_bytes(entry: &Entry) -> usize {
+    const INDENTED: usize = 8;
+    INDENTED + entry.text.as_ref().map_or_else(|| number_bytes(entry.value), |text| 2 * text.len() + 2)
+}
+
+fn matrix_bytes(matrix: &EntryMatrix) -> usize {
+    let (rows, columns) = matrix.shape();
+    let places = (0..rows).flat_map(|i| (0..columns).map(move |j| (i, j)));
+    places.filter_map(|(i, j)| matrix.entry(i, j)).map(entry_bytes).sum()
+}
+
+fn coupling_bytes(coupling: &Coupling) -> usize {
+    // each entry of a list stands on a line of its own, with two numbers of at most four digits before it
+    const LINE: usize = 26;
+    match coupling {
+        Coupling::Dense(matrix) => matrix_bytes(matrix),
+        Coupling::Sparse { entries, .. } => entries.iter().map(|entry| LINE + number_bytes(entry.2)).sum(),
+    }
 }
