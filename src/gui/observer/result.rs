@@ -63,10 +63,18 @@ fn equations(method: Method) -> &'static str {
     }
 }
 
+/// Rows and columns up to which a matrix is shown at once.
+const SHOWN: usize = 12;
+/// Rows and columns of a larger one that are shown when a person opens it.
+const OPENED: usize = 40;
+
 fn named_matrix(ui: &mut Ui, method: Method, matrix: &NamedMatrix) {
+    let (rows, columns) = matrix.value.shape();
+    let large = rows.max(columns) > SHOWN;
     ui.horizontal(|ui| {
         ui.label(RichText::new(&matrix.name).strong());
-        formula::remark(ui, &matrix.meaning);
+        let size = if large { format!("{rows} x {columns}: ") } else { String::new() };
+        formula::remark(ui, &format!("{size}{}", matrix.meaning));
         ui.menu_button("copy", |ui| {
             for syntax in MatrixSyntax::ALL {
                 if ui.button(syntax.name()).clicked() {
@@ -76,12 +84,29 @@ fn named_matrix(ui: &mut Ui, method: Method, matrix: &NamedMatrix) {
             }
         });
     });
+    if large {
+        egui::CollapsingHeader::new(format!("entries of {}", matrix.name))
+            .id_salt(("named-large", &matrix.name))
+            .default_open(false)
+            .show(ui, |ui| entries(ui, matrix));
+    } else {
+        entries(ui, matrix);
+    }
+    misprints(ui, method, matrix);
+}
+
+/// The entries of a matrix, of a very large one the first.
+fn entries(ui: &mut Ui, matrix: &NamedMatrix) {
+    let (rows, columns) = matrix.value.shape();
+    if rows.max(columns) > OPENED {
+        formula::remark(ui, &format!("the first {OPENED} rows and columns; copying takes all"));
+    }
     egui::ScrollArea::horizontal().id_salt(("named", &matrix.name)).auto_shrink([false, true]).show(
         ui,
         |ui| {
             egui::Grid::new(("named-grid", &matrix.name)).spacing([14.0, 2.0]).show(ui, |ui| {
-                for row in matrix.value.row_iter() {
-                    for value in row.iter() {
+                for row in matrix.value.row_iter().take(OPENED) {
+                    for value in row.iter().take(OPENED) {
                         let text = RichText::new(digits(*value)).monospace();
                         let text = if value.abs() < 1e-12 { text.color(theme::faint(ui)) } else { text };
                         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.label(text));
@@ -91,6 +116,9 @@ fn named_matrix(ui: &mut Ui, method: Method, matrix: &NamedMatrix) {
             });
         },
     );
+}
+
+fn misprints(ui: &mut Ui, method: Method, matrix: &NamedMatrix) {
     // a local observer's matrix carries the name of its subsystem: `N (first)`
     let letter = matrix.name.split(" (").next().unwrap_or_default();
     for erratum in errata(method.paper()).filter(|erratum| erratum.concerns == letter) {
