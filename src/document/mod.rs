@@ -1,6 +1,7 @@
 //! L3: the versioned file format, links, pasted matrices, exports.
 
 pub mod comparison;
+mod coupling;
 mod cursor;
 mod draw;
 mod duplicates;
@@ -20,6 +21,7 @@ mod lmi;
 mod matrix_text;
 mod model;
 mod network;
+mod network_matrix;
 mod pretty;
 mod read;
 pub mod report;
@@ -38,6 +40,7 @@ pub use model::{
     CHOSEN, Coupling, DescriptorData, Document, FreeData, KeptDesign, LipschitzData, Matrix, NetworkData,
     PlantData, ScenarioData, Subject, UncertaintyData,
 };
+pub use network_matrix::NetworkMatrix;
 pub use read::{Sizes, read_document};
 pub use write::{write_document, write_document_compact};
 

@@ -28,15 +28,20 @@ pub(super) enum Typed {
     /// Typed into a cell.
     Cell(usize, usize, String),
     /// Pasted a block of numbers while a cell was active.
-    Block(String),
+    Block {
+        /// Row and column of the cell.
+        at: (usize, usize),
+        /// What was pasted.
+        text: String,
+    },
 }
 
 /// Draws the grid and what is not understood below it.
 pub(super) fn show(ui: &mut Ui, widgets: &mut Widgets, grid: &EntryGrid<'_>) -> Option<Typed> {
     let mut typed = None;
-    if let Some(text) = pasted(ui, grid) {
+    if let Some((at, text)) = pasted(ui, grid) {
         widgets.typing = None;
-        typed = Some(Typed::Block(text));
+        typed = Some(Typed::Block { at, text });
     }
     let area = egui::ScrollArea::horizontal().id_salt(("entries", grid.name)).auto_shrink([true, true]);
     if let Some(cell) = area.show(ui, |ui| cells(ui, widgets, grid)).inner {
@@ -116,10 +121,10 @@ fn step(ui: &Ui, grid: &EntryGrid<'_>, (row, column): (usize, usize), committed:
 }
 
 /// Takes a pasted block while one of the cells is active, before its text field sees it.
-fn pasted(ui: &Ui, grid: &EntryGrid<'_>) -> Option<String> {
+fn pasted(ui: &Ui, grid: &EntryGrid<'_>) -> Option<((usize, usize), String)> {
     let active = ui.memory(egui::Memory::focused)?;
-    let own = places(grid.shape).any(|(row, column)| id(grid, row, column) == active);
-    if own { pasted_block(ui) } else { None }
+    let own = places(grid.shape).find(|(row, column)| id(grid, *row, *column) == active)?;
+    Some((own, pasted_block(ui)?))
 }
 
 /// Takes a pasted block of more than one number out of the input.

@@ -4,6 +4,7 @@ use egui::{Context, Key, KeyboardShortcut, Modifiers, Ui};
 
 use super::Output;
 use crate::platform::files::{FileRequest, HAS_LINKS};
+use crate::session::Command;
 
 const OPEN: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::O);
 const SAVE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::S);
@@ -11,6 +12,11 @@ const SAVE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::S)
 /// Draws the menu.
 pub(super) fn show(ui: &mut Ui, out: &mut Output) {
     ui.menu_button("File", |ui| {
+        let hint = "Four coupled subsystems to begin with; undo brings back what was there";
+        if ui.button("New network").on_hover_text(hint).clicked() {
+            out.commands.push(Command::NewNetwork);
+            ui.close();
+        }
         let mut item = |title: &str, hint: &str, request: FileRequest| {
             if ui.button(title).on_hover_text(hint).clicked() {
                 out.files.push(request);

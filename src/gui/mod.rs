@@ -13,6 +13,7 @@ mod formula;
 #[cfg(not(target_arch = "wasm32"))]
 mod icon;
 pub mod matrix_grid;
+pub mod network;
 pub mod observer;
 pub mod plot;
 pub mod pole_plane;
@@ -72,4 +73,6 @@ pub struct Widgets {
     pub active_cell: Option<Cell>,
     /// The condition whose explanation is open.
     pub open_condition: Option<String>,
+    /// What is chosen of a network.
+    pub network: network::NetworkWidgets,
 }

@@ -1,13 +1,15 @@
 //! Opening the window, starting the page.
 
 use super::Window;
+#[cfg(not(target_arch = "wasm32"))]
+use crate::platform::files::Arrival;
 
-/// Opens the window and returns when it is closed.
+/// Opens the window, with a document that was read for it, and returns when it is closed.
 ///
 /// # Errors
 /// When the machine offers no window or no OpenGL.
 #[cfg(not(target_arch = "wasm32"))]
-pub fn open_window() -> eframe::Result {
+pub fn open_window(document: Option<Arrival>) -> eframe::Result {
     let viewport = egui::ViewportBuilder::default()
         .with_title("descry")
         .with_app_id("descry")
@@ -15,7 +17,13 @@ pub fn open_window() -> eframe::Result {
         .with_min_inner_size([360.0, 480.0])
         .with_icon(super::icon::icon());
     let options = eframe::NativeOptions { viewport, ..eframe::NativeOptions::default() };
-    let create: eframe::AppCreator<'_> = Box::new(|creation| Ok(Box::new(Window::new(creation)?)));
+    let create: eframe::AppCreator<'_> = Box::new(|creation| {
+        let mut window = Window::new(creation)?;
+        if let Some(document) = document {
+            window.take(document);
+        }
+        Ok(Box::new(window))
+    });
     eframe::run_native("descry", options, create)
 }
 

@@ -79,6 +79,11 @@ pub fn accent(ui: &Ui) -> Color32 {
     series(ui, 0)
 }
 
+/// An edge of a network's graph: a positive or a negative weight.
+pub fn edge(ui: &Ui, positive: bool) -> Color32 {
+    if positive { ui.visuals().text_color().gamma_multiply(0.72) } else { series(ui, 1) }
+}
+
 /// Colour of a light.
 pub fn light(ui: &Ui, light: Light) -> Color32 {
     match light {

@@ -79,11 +79,16 @@ impl Window {
 
     fn take_arrivals(&mut self) {
         while let Some(arrival) = self.files.poll() {
-            match arrival {
-                Arrival::Document { name, text } => self.app.open(&name, text),
-                Arrival::Done(sentence) => self.app.tell(sentence, false),
-                Arrival::Problem(sentence) => self.app.tell(sentence, true),
-            }
+            self.take(arrival);
+        }
+    }
+
+    /// Opens a document that has arrived, or says what became of a request.
+    pub(super) fn take(&mut self, arrival: Arrival) {
+        match arrival {
+            Arrival::Document { name, text } => self.app.open(&name, text),
+            Arrival::Done(sentence) => self.app.tell(sentence, false),
+            Arrival::Problem(sentence) => self.app.tell(sentence, true),
         }
     }
 

@@ -9,6 +9,7 @@ descry: an interactive observatory for descriptor systems
 
 usage:
   descry                                   opens the window
+  descry FILE.json                         opens the window with a document
   descry check FILE                        properties of the system and conditions of the chosen method, as JSON
   descry design FILE                       conditions, design and its verification, as JSON
   descry simulate FILE [--format csv|json] plant and observer over time

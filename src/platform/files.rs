@@ -66,6 +66,12 @@ pub trait Files {
 /// Whether documents can be shared by an address.
 pub const HAS_LINKS: bool = cfg!(target_arch = "wasm32");
 
+/// The text of a document in a file, or why it cannot be read.
+#[cfg(not(target_arch = "wasm32"))]
+pub fn read_file(path: &std::path::Path) -> Arrival {
+    super::native::dialogs::read(path)
+}
+
 /// The fragment in the page's address, with its `#`.
 pub fn linked() -> Option<String> {
     #[cfg(target_arch = "wasm32")]

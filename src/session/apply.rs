@@ -5,23 +5,21 @@ use super::edit_compare::CompareEdit;
 use super::edit_free::FreeEdit;
 use super::follow::follow;
 use super::model_edits::{GivenPart, LipschitzEdit, LmiEdit, PartitionEdit};
+use super::network_edits::{NetworkCell, NetworkEdit};
 use super::state::{Draft, Field, Message, Session};
 use super::update::{Edited, replace};
 use super::{
-    edit_compare, edit_free, edit_lipschitz, edit_lmi, edit_partition, edit_plant, edit_scenario, poles,
+    edit_compare, edit_free, edit_lipschitz, edit_lmi, edit_network, edit_partition, edit_plant,
+    edit_scenario, poles,
 };
-use crate::document::{Document, Entry, EntryMatrix, PlantData, limits};
+use crate::document::{Document, Entry, EntryMatrix, Matrix, NetworkMatrix, PlantData, limits};
 
 /// Carries out an edit as one step, or as a part of the drag that it belongs to.
 pub(super) fn apply(session: &mut Session, edit: Edit) {
     let drag = drag_key(&edit);
     let ends = drag.as_ref().is_none_or(|(_, done)| *done);
     let field = typed_field(&edit);
-    let overwritten = match &edit {
-        Edit::Paste { cell, .. } => Some(cell.matrix),
-        Edit::Fill { matrix, .. } => Some(*matrix),
-        _ => None,
-    };
+    let overwritten = overwritten(&edit);
     let fed_back = matches!(edit, Edit::Free(FreeEdit::Feedback(_) | FreeEdit::Paste(_)));
     let exchanged = matches!(&edit, Edit::Compare(edit) if edit_compare::exchanges(edit));
     let waiting = if ends { waiting_fields(&edit) } else { None };
@@ -37,14 +35,10 @@ pub(super) fn apply(session: &mut Session, edit: Edit) {
             if exchanged {
                 session.drafts.retain(|field, _| !edit_compare::belongs_to_a_design(field));
             }
-            if let Some(matrix) = overwritten {
-                session
-                    .drafts
-                    .retain(|field, _| !matches!(field, Field::Cell(cell) if cell.matrix == matrix));
-            }
             if fed_back {
                 session.drafts.retain(|field, _| !matches!(field, Field::FreeFeedback(..)));
             }
+            session.drafts.retain(|field, _| !overwritten.covers(field));
             replace(session, document, drag.map(|(key, _)| key));
             if !told.is_empty() {
                 session.message = Some(Message { text: told.join("; "), error: false });
@@ -60,6 +54,33 @@ pub(super) fn apply(session: &mut Session, edit: Edit) {
     }
     if let Some(waiting) = waiting {
         try_again(session, waiting);
+    }
+}
+
+/// The matrix that an edit writes anew as a whole: what was typed into its cells before is gone.
+enum Overwritten {
+    Nothing,
+    Matrix(Matrix),
+    Network(NetworkMatrix),
+}
+
+impl Overwritten {
+    fn covers(&self, field: &Field) -> bool {
+        match (self, field) {
+            (Self::Matrix(matrix), Field::Cell(cell)) => cell.matrix == *matrix,
+            (Self::Network(matrix), Field::Network(cell)) => cell.matrix == *matrix,
+            _ => false,
+        }
+    }
+}
+
+fn overwritten(edit: &Edit) -> Overwritten {
+    match edit {
+        Edit::Paste { cell, .. } => Overwritten::Matrix(cell.matrix),
+        Edit::Fill { matrix, .. } => Overwritten::Matrix(*matrix),
+        Edit::Network(NetworkEdit::Paste { cell, .. }) => Overwritten::Network(cell.matrix),
+        Edit::Network(NetworkEdit::Template { .. }) => Overwritten::Network(NetworkMatrix::Gamma),
+        _ => Overwritten::Nothing,
     }
 }
 
@@ -119,7 +140,9 @@ fn keeps_meaning(field: &Field, document: &Document, resized: bool) -> bool {
     };
     let lmi = &document.design.lmi;
     match field {
-        Field::Poles | Field::InitialFormula => true,
+        Field::Poles | Field::LocalPoles | Field::InitialFormula => true,
+        Field::Network(_) => !resized && is_network(document),
+        Field::Subsystems => is_network(document),
         Field::Cell(_)
         | Field::Initial(_)
         | Field::Signal(..)
@@ -138,9 +161,16 @@ fn keeps_meaning(field: &Field, document: &Document, resized: bool) -> bool {
     }
 }
 
+fn is_network(document: &Document) -> bool {
+    matches!(document.plant, PlantData::Network(_))
+}
+
 /// Shapes of everything that is typed into cell by cell.
 fn sizes(document: &Document) -> Vec<(usize, usize)> {
-    let PlantData::Descriptor(data) = &document.plant else { return Vec::new() };
+    let data = match &document.plant {
+        PlantData::Descriptor(data) => data,
+        PlantData::Network(data) => return NetworkMatrix::ALL.map(|matrix| data.shape(matrix)).into(),
+    };
     let lipschitz = data.lipschitz.iter().flat_map(|lipschitz| [&lipschitz.G, &lipschitz.F_L]);
     data.matrices.iter().chain(lipschitz).map(EntryMatrix::shape).collect()
 }
@@ -160,6 +190,9 @@ fn drag_key(edit: &Edit) -> Option<(String, bool)> {
         Edit::Title(_) => Some(("title".to_owned(), false)),
         Edit::Notes(_) => Some(("notes".to_owned(), false)),
         Edit::Horizon(_) => Some(("horizon".to_owned(), false)),
+        Edit::Network(NetworkEdit::MoveLocalPole { index, done, .. }) => {
+            Some((format!("local pole {index}"), *done))
+        }
         _ => None,
     }
 }
@@ -199,6 +232,19 @@ fn typed_field(edit: &Edit) -> Option<Field> {
         Edit::Free(FreeEdit::Signal { index, .. }) => Some(Field::FreeSignal(*index)),
         Edit::Free(FreeEdit::Cell { row, column, .. }) => Some(Field::FreeFeedback(*row, *column)),
         Edit::Compare(CompareEdit::Rename { kept, .. }) => Some(Field::KeptName(*kept)),
+        Edit::Network(edit) => typed_into_network(edit),
+        _ => None,
+    }
+}
+
+fn typed_into_network(edit: &NetworkEdit) -> Option<Field> {
+    match edit {
+        NetworkEdit::Cell { cell, .. } => Some(Field::Network(*cell)),
+        NetworkEdit::Edge { to, from, .. } => {
+            Some(Field::Network(NetworkCell { matrix: NetworkMatrix::Gamma, row: *to, column: *from }))
+        }
+        NetworkEdit::Subsystems(_) => Some(Field::Subsystems),
+        NetworkEdit::LocalPoles(_) | NetworkEdit::MoveLocalPole { .. } => Some(Field::LocalPoles),
         _ => None,
     }
 }
@@ -258,6 +304,7 @@ fn change(document: &mut Document, edit: Edit) -> Edited {
         Edit::Lipschitz(edit) => return edit_lipschitz::change(document, edit),
         Edit::Free(edit) => return edit_free::change(document, edit),
         Edit::Compare(edit) => return edit_compare::change(document, edit),
+        Edit::Network(edit) => return edit_network::change(document, edit),
         Edit::Initial { .. }
         | Edit::InitialFormula(_)
         | Edit::Signal { .. }

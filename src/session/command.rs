@@ -3,6 +3,7 @@
 use super::edit_compare::CompareEdit;
 use super::edit_free::FreeEdit;
 use super::model_edits::{LipschitzEdit, LmiEdit, PartitionEdit};
+use super::network_edits::NetworkEdit;
 use crate::document::Matrix;
 use crate::numerics::Complex64;
 use crate::observer::{Method, Order};
@@ -22,6 +23,8 @@ pub enum Command {
         /// Its key.
         key: String,
     },
+    /// Begin with a small network of identical subsystems.
+    NewNetwork,
     /// Undo the last step.
     Undo,
     /// Redo what was undone.
@@ -155,6 +158,8 @@ pub enum Edit {
     Free(FreeEdit),
     /// The designs that are kept to be compared.
     Compare(CompareEdit),
+    /// The network.
+    Network(NetworkEdit),
 }
 
 /// A cell of a matrix, rows and columns from zero.

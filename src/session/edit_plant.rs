@@ -13,7 +13,8 @@ use crate::system::Signal;
 pub(super) fn change(document: &mut Document, edit: Edit) -> Edited {
     let PlantData::Descriptor(data) = &mut document.plant else {
         return Edited::Refused(
-            "the system is given as a network; its matrices are not edited here".to_owned(),
+            "the system is given as a network: change its subsystem and its coupling, or expand it to matrices first"
+                .to_owned(),
         );
     };
     match edit {

@@ -1,11 +1,15 @@
 //! The list of poles: reading, moving in the plane, providing enough for an order.
 
+use std::collections::BTreeSet;
+
+use nalgebra::DMatrix;
+
 use crate::document::limits::MAX_POLES;
-use crate::document::{Document, PlantData};
-use crate::numerics::{Complex64, conjugate_pairs, rank};
-use crate::observer::hierarchical::Hierarchy;
+use crate::document::{Document, NetworkData, PlantData};
+use crate::numerics::{Complex64, Tolerance, conjugate_pairs, rank};
+use crate::observer::hierarchical::{Hierarchy, MOST_GLOBAL_STATES};
 use crate::observer::{Method, Order, show};
-use crate::system::TimeDomain;
+use crate::system::{Network, TimeDomain};
 
 /// Reads `-22, -3+2i, -3-2i`; commas, semicolons or spaces between them, `i` or `j`, brackets are ignored.
 pub(super) fn parse(text: &str) -> Result<Vec<Complex64>, String> {
@@ -111,12 +115,17 @@ pub(super) fn used(document: &Document) -> Option<usize> {
     needed(document).map(|(needed, _)| needed.min(document.design.poles.len()))
 }
 
+/// Moves one pole of the local observers in the plane.
+pub(super) fn drag_local(document: &mut Document, index: usize, to: Complex64) {
+    let PlantData::Network(data) = &document.plant else { return };
+    move_pole(&mut document.design.local_poles, index, to, (data.a.shape().0, false));
+}
+
 /// How many poles the chosen order takes at most, and the time domain.
 fn needed(document: &Document) -> Option<(usize, TimeDomain)> {
     if document.design.method == Method::Hierarchical {
         let PlantData::Network(data) = &document.plant else { return None };
-        let hierarchy = Hierarchy::of(&data.network().ok()?, &document.tolerance).ok()?;
-        return Some((hierarchy.order(), TimeDomain::Continuous));
+        return Some((global_order(data, &document.tolerance)?, TimeDomain::Continuous));
     }
     let system = document.system().ok()?;
     let rank = rank(&system.E, 0.0, &document.tolerance).ok()?;
@@ -133,18 +142,35 @@ fn needed(document: &Document) -> Option<(usize, TimeDomain)> {
     Some((needed, system.time))
 }
 
+/// States of the global observer of a network; of a large one at most, by who listens and who is listened to alone,
+/// since no keystroke waits for the rank of a large matrix. `None` when there is none.
+fn global_order(data: &NetworkData, tolerance: &Tolerance) -> Option<usize> {
+    const DECIDED: usize = 100;
+    let network = data.network().ok()?;
+    if network.n_subsystems() <= DECIDED {
+        return Hierarchy::of(&network, tolerance).ok().map(|hierarchy| hierarchy.order());
+    }
+    let entries = data.Gamma.entries();
+    let count = |of: fn(&(usize, usize, f64)) -> usize| entries.iter().map(of).collect::<BTreeSet<_>>().len();
+    let nu = count(|entry| entry.0).min(count(|entry| entry.1));
+    let one = DMatrix::from_element(1, 1, 1.0);
+    let alone = Network { Gamma: one.clone().into(), Psi: one, local: Vec::new(), ..network };
+    let mu = Hierarchy::of(&alone, tolerance).ok()?.order();
+    Some(nu * mu).filter(|order| *order <= MOST_GLOBAL_STATES)
+}
+
 /// Adds poles until the chosen order has enough; never removes or moves one.
 ///
 /// New poles continue the list to the left of its fastest real part (discrete: between 0.3 and 0.7).
 pub(super) fn provide(document: &mut Document) {
+    if let (Method::Hierarchical, PlantData::Network(data)) = (document.design.method, &document.plant) {
+        let needed = data.a.shape().0;
+        lengthen(&mut document.design.local_poles, needed, TimeDomain::Continuous);
+        pair_up(&mut document.design.local_poles, needed, false);
+    }
     let Some((needed, time)) = needed(document) else { return };
     lengthen(&mut document.design.poles, needed, time);
     pair_up(&mut document.design.poles, needed, time == TimeDomain::Discrete);
-    if let (Method::Hierarchical, PlantData::Network(data)) = (document.design.method, &document.plant) {
-        let needed = data.a.shape().0;
-        lengthen(&mut document.design.local_poles, needed, time);
-        pair_up(&mut document.design.local_poles, needed, false);
-    }
 }
 
 /// Adds poles to a list until it has as many as are needed.

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::command::{Cell, ComparedFigure, Place, SignalList, Tab, ThemeChoice};
 use super::history::History;
 use super::model_edits::{GivenPart, LipschitzMatrix};
+use super::network_edits::NetworkCell;
 use crate::document::{Document, DocumentError, read_document, write_document_compact};
 use crate::paper::EXAMPLES;
 
@@ -51,6 +52,12 @@ pub enum Field {
     FreeFeedback(usize, usize),
     /// The name of a kept design, from zero.
     KeptName(usize),
+    /// A cell of a network's matrix.
+    Network(NetworkCell),
+    /// The number of subsystems of a network.
+    Subsystems,
+    /// The poles of the local observers.
+    LocalPoles,
 }
 
 /// A text that was not understood; the last good value stays in force.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::apply::apply;
 use super::command::{Cell, Command, Show};
+use super::new_network::new_network;
 use super::state::{Draft, Field, Session};
 use crate::document::{Document, read_document};
 use crate::paper::example;
@@ -19,6 +20,7 @@ pub fn update(session: &mut Session, command: Command) {
             Some(example) => open(session, example.text, example.title),
             None => session.tell(format!("there is no example \"{key}\""), true),
         },
+        Command::NewNetwork => begin(session, new_network(), "a new network"),
         Command::Undo => step(session, true),
         Command::Redo => step(session, false),
         Command::Edit(edit) => apply(session, edit),
@@ -34,16 +36,19 @@ pub fn update(session: &mut Session, command: Command) {
 
 fn open(session: &mut Session, text: &str, what: &str) {
     match read_document(text) {
-        Ok(document) => {
-            let figure = document.figures.first().map(|figure| figure.id.clone());
-            session.history.drag_ended();
-            replace(session, document, None);
-            session.drafts.clear();
-            session.view.figure = figure;
-            session.tell(format!("opened {what}"), false);
-        }
+        Ok(document) => begin(session, document, what),
         Err(error) => session.tell(format!("{what} was not opened: {error}"), true),
     }
+}
+
+/// Puts a whole document in place of the one before, as a step of the history.
+fn begin(session: &mut Session, document: Document, what: &str) {
+    let figure = document.figures.first().map(|figure| figure.id.clone());
+    session.history.drag_ended();
+    replace(session, document, None);
+    session.drafts.clear();
+    session.view.figure = figure;
+    session.tell(format!("opened {what}"), false);
 }
 
 fn step(session: &mut Session, back: bool) {

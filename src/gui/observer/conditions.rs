@@ -2,7 +2,7 @@
 
 use egui::{RichText, Sense, Stroke, Ui, vec2};
 
-use super::super::{Output, Widgets, formula, theme};
+use super::super::{Output, Widgets, formula, network, theme};
 use super::errata;
 use crate::document::Document;
 use crate::numerics::RankDecision;
@@ -17,7 +17,15 @@ pub(super) fn show(
     widgets: &mut Widgets,
     out: &mut Output,
 ) {
+    let mut explained = false;
     for condition in conditions {
+        if condition.id.starts_with("003-T2") && !explained {
+            explained = true;
+            formula::remark(
+                ui,
+                "Theorem 2 explains the verdict on the whole; the test of its modes decides.",
+            );
+        }
         let fill = ui.visuals().faint_bg_color;
         egui::Frame::new().fill(fill).corner_radius(5.0).inner_margin(7.0).show(ui, |ui| {
             ui.set_min_width(ui.available_width());
@@ -96,6 +104,11 @@ fn why(ui: &mut Ui, document: &Document, condition: &Condition, out: &mut Output
                 && ui.button(format!("Add a sensor of x{}", state + 1)).clicked()
             {
                 out.edit(Edit::AddSensor { state });
+            }
+            if let Some((text, edit)) = network::mend::button(&condition.id, remedy)
+                && ui.button(text).clicked()
+            {
+                out.edit(edit);
             }
         });
     }

@@ -90,6 +90,9 @@ fn word(light: Light) -> &'static str {
 /// Draws the orders that the method offers.
 pub(super) fn orders(ui: &mut Ui, session: &Session, out: &mut Output) {
     let design = &session.document().design;
+    if design.method.orders().len() < 2 {
+        return;
+    }
     ui.horizontal_wrapped(|ui| {
         ui.label("Order");
         for order in design.method.orders() {

@@ -13,8 +13,8 @@ mod rows;
 
 use egui::{RichText, Ui};
 
-use super::{Output, Widgets, compare, theme};
-use crate::observer::Assessment;
+use super::{Output, Widgets, compare, network, theme};
+use crate::observer::{Assessment, Method};
 use crate::session::{Derived, Session};
 
 /// Draws the place of the observer.
@@ -50,6 +50,10 @@ pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Wid
             lmi_result::show(ui, design.synthesis.lmi(), demands::is_discrete(session));
         }
     } else {
+        if session.document().design.method == Method::Hierarchical {
+            let design = assessment.and_then(|assessment| assessment.outcome.as_ref().ok());
+            network::observer::show(ui, session, design, out);
+        }
         poles::show(ui, session, derived, widgets, out);
     }
     if let Some(assessment) = assessment {

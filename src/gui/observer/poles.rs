@@ -1,12 +1,14 @@
 //! The wished poles of designs by pole placement.
 
-use egui::{RichText, Ui, vec2};
+use egui::{Id, RichText, Ui, vec2};
 
 use super::super::text_field::text_field;
 use super::super::{Output, Widgets, pole_plane, theme};
-use crate::session::{Derived, Edit, Field, Session, Tab, poles_text};
+use crate::numerics::Complex64;
+use crate::observer::Method;
+use crate::session::{Derived, Edit, Field, NetworkEdit, Session, Tab, poles_text};
 
-/// Draws the list, the bandwidth and the plane of poles.
+/// Draws the list, the bandwidth and the plane of poles; of a hierarchical observer both lists.
 pub(super) fn show(
     ui: &mut Ui,
     session: &Session,
@@ -15,20 +17,52 @@ pub(super) fn show(
     out: &mut Output,
 ) {
     let design = &session.document().design;
-    ui.label(RichText::new("Poles").strong());
-    let draft = session.draft(&Field::Poles);
-    let shown = poles_text(&design.poles);
-    let width = ui.available_width();
-    if let Some(text) = text_field(ui, widgets, (egui::Id::unique("poles"), "Poles"), &shown, draft, width) {
-        out.edit(Edit::Poles(text));
-    }
-    if let Some(draft) = draft {
-        ui.colored_label(theme::bad(ui), &draft.error);
+    if design.method == Method::Hierarchical {
+        let global =
+            List { title: "Poles of the global observer", name: "Global poles", field: Field::Poles };
+        if let Some(text) = list(ui, session, widgets, &global, &design.poles) {
+            out.edit(Edit::Poles(text));
+        }
+        let local =
+            List { title: "Poles of the local observers", name: "Local poles", field: Field::LocalPoles };
+        if let Some(text) = list(ui, session, widgets, &local, &design.local_poles) {
+            out.edit(Edit::Network(NetworkEdit::LocalPoles(text)));
+        }
+    } else {
+        let only = List { title: "Poles", name: "Poles", field: Field::Poles };
+        if let Some(text) = list(ui, session, widgets, &only, &design.poles) {
+            out.edit(Edit::Poles(text));
+        }
     }
     scale(ui, session, out);
     plane(ui, session, derived, out);
 }
 
+/// A list of poles that is typed.
+struct List {
+    title: &'static str,
+    /// Accessible name.
+    name: &'static str,
+    field: Field,
+}
+
+/// Draws a list; the text when it was changed.
+fn list(
+    ui: &mut Ui,
+    session: &Session,
+    widgets: &mut Widgets,
+    list: &List,
+    poles: &[Complex64],
+) -> Option<String> {
+    ui.label(RichText::new(list.title).strong());
+    let draft = session.draft(&list.field);
+    let (id, width) = (Id::unique(("poles", list.name)), ui.available_width());
+    let text = text_field(ui, widgets, (id, list.name), &poles_text(poles), draft, width);
+    if let Some(draft) = draft {
+        ui.colored_label(theme::bad(ui), &draft.error);
+    }
+    text
+}
 /// Draws the plane, unless the view of poles shows it, larger.
 pub(super) fn plane(ui: &mut Ui, session: &Session, derived: &Derived, out: &mut Output) {
     let elsewhere = !theme::is_narrow(ui) && session.view().tab == Tab::Poles;

@@ -64,10 +64,18 @@ fn equations(method: Method) -> &'static str {
     }
 }
 
+/// Rows and columns up to which a matrix is shown at once.
+const SHOWN: usize = 12;
+/// Rows and columns of a larger one that are shown when a person opens it.
+const OPENED: usize = 40;
+
 fn named_matrix(ui: &mut Ui, document: &Document, method: Method, matrix: &NamedMatrix) {
+    let (rows, columns) = matrix.value.shape();
+    let large = rows.max(columns) > SHOWN;
     ui.horizontal(|ui| {
         ui.label(RichText::new(&matrix.name).strong());
-        formula::remark(ui, &matrix.meaning);
+        let size = if large { format!("{rows} x {columns}: ") } else { String::new() };
+        formula::remark(ui, &format!("{size}{}", matrix.meaning));
         ui.menu_button("copy", |ui| {
             for syntax in MatrixSyntax::ALL {
                 if ui.button(syntax.name()).clicked() {
@@ -77,6 +85,18 @@ fn named_matrix(ui: &mut Ui, document: &Document, method: Method, matrix: &Named
             }
         });
     });
+    if large {
+        egui::CollapsingHeader::new(format!("entries of {}", matrix.name))
+            .id_salt(("named-large", &matrix.name))
+            .default_open(false)
+            .show(ui, |ui| {
+                egui::ScrollArea::horizontal()
+                    .id_salt(("named", &matrix.name))
+                    .auto_shrink([false, true])
+                    .show(ui, |ui| entries(ui, matrix));
+            });
+        return;
+    }
     // a local observer's matrix carries the name of its subsystem: `N (first)`
     let letter = matrix.name.split(" (").next().unwrap_or_default();
     let known = printed(method.paper(), letter, &matrix.value);
@@ -99,10 +119,15 @@ fn named_matrix(ui: &mut Ui, document: &Document, method: Method, matrix: &Named
     errata::beside(ui, (method.paper(), letter), document);
 }
 
+/// The entries of a matrix, of a very large one the first.
 fn entries(ui: &mut Ui, matrix: &NamedMatrix) {
+    let (rows, columns) = matrix.value.shape();
+    if rows.max(columns) > OPENED {
+        formula::remark(ui, &format!("the first {OPENED} rows and columns; copying takes all"));
+    }
     egui::Grid::new(("named-grid", &matrix.name)).spacing([14.0, 2.0]).show(ui, |ui| {
-        for row in matrix.value.row_iter() {
-            for value in row.iter() {
+        for row in matrix.value.row_iter().take(OPENED) {
+            for value in row.iter().take(OPENED) {
                 let text = RichText::new(digits(*value)).monospace();
                 let text = if value.abs() < 1e-12 { text.color(theme::faint(ui)) } else { text };
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.label(text));

@@ -108,7 +108,7 @@ fn one(
         Some(Typed::Cell(row, column, text)) => {
             out.edit(Edit::Lmi(LmiEdit::RowsCell { subsystem, row, column, text }));
         }
-        Some(Typed::Block(text)) => out.edit(Edit::Lmi(LmiEdit::RowsPaste { subsystem, text })),
+        Some(Typed::Block { text, .. }) => out.edit(Edit::Lmi(LmiEdit::RowsPaste { subsystem, text })),
         None => {}
     }
 }

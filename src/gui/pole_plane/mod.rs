@@ -1,6 +1,7 @@
 //! The complex plane: wished poles to drag, achieved poles over them, fixed modes, eigenvalues of the plant.
 
 mod ground;
+mod wish;
 
 use egui::{Align2, FontId, Id, Key, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2, vec2};
 
@@ -8,10 +9,10 @@ use super::plot::round_step;
 use super::{Output, theme};
 use crate::document::PlantData;
 use crate::numerics::Complex64;
-use crate::observer::scaled_pole;
-use crate::observer::show;
-use crate::session::{Derived, Edit, Session};
+use crate::observer::{Method, scaled_pole, show};
+use crate::session::{Derived, Session};
 use crate::system::TimeDomain;
+pub use wish::Wish;
 
 /// Distance in points from a pole within which it is taken: by a mouse, by a finger.
 const MOUSE_RADIUS: f32 = 14.0;
@@ -24,10 +25,12 @@ pub struct Poles {
     pub discrete: bool,
     /// The bandwidth factor.
     pub scale: f64,
-    /// Wished poles of the document, scaled.
+    /// Wished poles of the document, scaled; those that the order uses come first.
     pub wished: Vec<Complex64>,
     /// How many of them the order uses.
     pub used: usize,
+    /// Whose they are, one for each; of a single list, none.
+    pub owners: Vec<Wish>,
     /// Eigenvalues that the gain gave.
     pub achieved: Vec<Complex64>,
     /// Modes that no gain moves.
@@ -50,21 +53,50 @@ impl Poles {
         };
         let scale = document.design.scale;
         let by_region = document.design.method.uses_lmi();
-        // undoing the inverse scale is scaling
-        let listed = document.design.poles.iter().filter(|_| !by_region);
-        let wished: Vec<Complex64> = listed.map(|pole| scaled_pole(*pole, scale, discrete)).collect();
         let decay = document.design.lmi.decay.filter(|_| by_region);
-        let mut poles =
-            Self { discrete, scale, used: wished.len(), wished, by_region, decay, ..Self::default() };
-        if let Some(analysis) = derived.analysis() {
-            poles.plant.clone_from(&analysis.plant_eigenvalues);
-            if let Some(design) = analysis.assessment.as_ref().ok().and_then(|a| a.outcome.as_ref().ok()) {
-                poles.used = design.synthesis.placement().map_or(0, |p| p.requested.len()).min(poles.used);
-                poles.achieved.clone_from(&design.verification.spectrum);
-                poles.fixed = design.synthesis.fixed_modes();
+        let mut poles = Self { discrete, scale, by_region, decay, ..Self::default() };
+        let analysis = derived.analysis();
+        let assessment = analysis.and_then(|analysis| analysis.assessment.as_ref().ok());
+        let design = assessment.and_then(|assessment| assessment.outcome.as_ref().ok());
+        if !by_region {
+            let (wishes, used) = wish::wishes(session, design);
+            poles.used = used;
+            // undoing the inverse scale is scaling
+            poles.wished = wishes.iter().map(|(_, pole)| scaled_pole(*pole, scale, discrete)).collect();
+            if document.design.method == Method::Hierarchical {
+                poles.owners = wishes.into_iter().map(|(wish, _)| wish).collect();
             }
         }
+        if let Some(analysis) = analysis {
+            poles.plant.clone_from(&analysis.plant_eigenvalues);
+        }
+        if let Some(design) = design {
+            poles.achieved.clone_from(&design.verification.spectrum);
+            poles.fixed = design.synthesis.fixed_modes();
+            let locals = design.hierarchical.iter().flat_map(|found| found.locals()).take(1);
+            poles.fixed.extend(locals.flat_map(|(_, local)| local.placement.fixed_modes.iter().copied()));
+        }
         poles
+    }
+
+    /// Whose a wished pole is.
+    fn wish(&self, k: usize) -> Wish {
+        self.owners.get(k).copied().unwrap_or(Wish { local: false, index: k })
+    }
+
+    /// Where a wish stands among those that the order uses.
+    fn place(&self, wish: Wish) -> Option<usize> {
+        (0..self.used).find(|k| self.wish(*k) == wish)
+    }
+
+    /// What a wished pole is called.
+    fn name(&self, k: usize) -> String {
+        let Wish { local, index } = self.wish(k);
+        match (self.owners.is_empty(), local) {
+            (true, _) => format!("pole {}", index + 1),
+            (false, false) => format!("global pole {}", index + 1),
+            (false, true) => format!("local pole {}", index + 1),
+        }
     }
 
     /// The smallest rectangle that a view must show: `[re low, re high, im half]`.
@@ -134,9 +166,9 @@ impl View {
 struct Memory {
     view: Option<View>,
     /// The pole that is dragged and its offset from the pointer.
-    dragged: Option<(usize, Vec2)>,
+    dragged: Option<(Wish, Vec2)>,
     /// The pole that arrow keys are moving.
-    stepping: Option<usize>,
+    stepping: Option<Wish>,
 }
 
 /// Draws the plane and turns drags and arrow keys into moved poles.
@@ -162,8 +194,9 @@ pub fn pole_plane_ui(ui: &mut Ui, session: &Session, derived: &Derived, size: Ve
     let plane = Plane { poles: &poles, view, rect };
     plane.pointer(ui, &response, &mut memory, out);
     let focused = plane.nodes(ui, response.id, &mut memory, out);
-    plane.wishes(ui, &response, memory.dragged.map(|(k, _)| k).or(focused));
-    plane.read_out(ui, response, memory.dragged.map(|(k, _)| k));
+    let dragged = memory.dragged.and_then(|(wish, _)| poles.place(wish));
+    plane.wishes(ui, &response, dragged.or(focused));
+    plane.read_out(ui, response, dragged);
     ui.data_mut(|data| data.insert_temp(id, memory));
 }
 
@@ -188,9 +221,9 @@ impl Plane<'_> {
             .min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 
-    fn move_to(&self, index: usize, to: Complex64, done: bool, out: &mut Output) {
+    fn move_to(&self, k: usize, to: Complex64, done: bool, out: &mut Output) {
         let to = scaled_pole(to, 1.0 / self.poles.scale, self.poles.discrete);
-        out.edit(Edit::MovePole { index, to, done });
+        out.edit(self.poles.wish(k).moved(to, done));
     }
 
     /// Drags: a pole keeps its distance from the pointer, and does not leave the view.
@@ -199,28 +232,27 @@ impl Plane<'_> {
             let origin = ui.input(|input| input.pointer.press_origin());
             memory.dragged = origin
                 .and_then(|origin| Some((self.nearest(ui, origin)?, origin)))
-                .map(|(k, origin)| (k, self.at(self.poles.wished[k]) - origin));
+                .map(|(k, origin)| (self.poles.wish(k), self.at(self.poles.wished[k]) - origin));
         }
         if response.clicked() || response.drag_started() {
             let at = ui.input(|input| input.pointer.press_origin()).or(response.interact_pointer_pos());
             if let Some(k) = at.and_then(|at| self.nearest(ui, at)) {
-                ui.memory_mut(|memory| memory.request_focus(node_id(response.id, k)));
+                ui.memory_mut(|memory| memory.request_focus(node_id(response.id, self.poles.wish(k))));
             }
         }
-        let Some((k, offset)) = memory.dragged else { return };
-        let still_there = k < self.poles.used;
-        let pointer = response.interact_pointer_pos().filter(|_| still_there);
+        let Some((wish, offset)) = memory.dragged else { return };
         let ended = response.drag_stopped() || !response.dragged();
-        if let Some(pointer) = pointer {
+        if ended {
+            memory.dragged = None;
+        }
+        let Some(k) = self.poles.place(wish) else { return };
+        if let Some(pointer) = response.interact_pointer_pos() {
             let inside = self.rect.shrink(2.0).clamp(pointer + offset);
             if ended || response.drag_delta() != Vec2::ZERO || response.drag_started() {
                 self.move_to(k, self.view.value(inside, self.rect), ended, out);
             }
-        } else if ended && still_there {
+        } else if ended {
             self.move_to(k, self.poles.wished[k], true, out);
-        }
-        if ended {
-            memory.dragged = None;
         }
     }
 
@@ -228,10 +260,10 @@ impl Plane<'_> {
     fn nodes(&self, ui: &Ui, plane: Id, memory: &mut Memory, out: &mut Output) -> Option<usize> {
         let mut focused = None;
         for (k, pole) in self.poles.wished[..self.poles.used].iter().enumerate() {
-            let id = node_id(plane, k);
+            let id = node_id(plane, self.poles.wish(k));
             let node = Rect::from_center_size(self.at(*pole), Vec2::splat(12.0));
             let response = ui.interact(node, id, Sense::focusable_noninteractive());
-            response.widget_info(|| egui::WidgetInfo::labeled(Role::Slider, true, format!("pole {}", k + 1)));
+            response.widget_info(|| egui::WidgetInfo::labeled(Role::Slider, true, self.poles.name(k)));
             ui.ctx().accesskit_node_builder(id, |node| node.set_value(show(*pole)));
             if response.has_focus() {
                 focused = Some(k);
@@ -266,9 +298,9 @@ impl Plane<'_> {
                 // far enough from the real axis not to snap back onto it
                 to.im = count.1.signum() * step.max(0.04 * pole.norm());
             }
-            memory.stepping = Some(k);
+            memory.stepping = Some(self.poles.wish(k));
             self.move_to(k, to, released, out);
-        } else if released && memory.stepping == Some(k) {
+        } else if released && memory.stepping == Some(self.poles.wish(k)) {
             self.move_to(k, pole, true, out);
         }
         if released {
@@ -284,7 +316,11 @@ impl Plane<'_> {
             let at = self.at(*pole);
             let used = k < self.poles.used;
             let marked = active == Some(k) || active.is_none() && under == Some(k);
-            let colour = if used { theme::accent(ui) } else { theme::faint(ui).gamma_multiply(0.5) };
+            let colour = match (used, self.poles.wish(k).local) {
+                (true, false) => theme::accent(ui),
+                (true, true) => theme::series(ui, 1),
+                (false, _) => theme::faint(ui).gamma_multiply(0.5),
+            };
             let arm = if marked { 8.0 } else { 6.0 };
             let stroke = Stroke::new(if used { 2.2 } else { 1.2 }, colour);
             painter.line_segment([at - vec2(arm, arm), at + vec2(arm, arm)], stroke);
@@ -309,11 +345,12 @@ impl Plane<'_> {
             values.iter().copied().find(|z| self.at(*z).distance(pointer) <= MOUSE_RADIUS)
         };
         let text = if let Some(k) = dragged.or_else(|| self.nearest(ui, pointer)) {
-            format!("pole {}: {}", k + 1, show(self.poles.wished[k]))
+            format!("{}: {}", self.poles.name(k), show(self.poles.wished[k]))
         } else if let Some(fixed) = near(&self.poles.fixed) {
             format!("fixed mode {}", show(fixed))
         } else if let Some(unused) = near(&self.poles.wished[self.poles.used..]) {
-            format!("{} waits: this order uses {} poles", show(unused), self.poles.used)
+            let uses = if self.poles.owners.is_empty() { "this order uses" } else { "these observers use" };
+            format!("{} waits: {uses} {} poles", show(unused), self.poles.used)
         } else if let Some(achieved) = near(&self.poles.achieved).filter(|_| self.poles.by_region) {
             format!("mode of the error {}", show(achieved))
         } else if let Some(plant) = near(&self.poles.plant) {
@@ -332,8 +369,8 @@ impl Plane<'_> {
     }
 }
 
-fn node_id(plane: Id, k: usize) -> Id {
-    plane.with(("pole", k))
+fn node_id(plane: Id, wish: Wish) -> Id {
+    plane.with(("pole", wish.local, wish.index))
 }
 
 #[cfg(test)]

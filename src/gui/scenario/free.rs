@@ -162,7 +162,7 @@ fn grid(
         Some(Typed::Cell(row, column, text)) => {
             out.edit(Edit::Free(FreeEdit::Cell { row, column, text }));
         }
-        Some(Typed::Block(text)) => out.edit(Edit::Free(FreeEdit::Paste(text))),
+        Some(Typed::Block { text, .. }) => out.edit(Edit::Free(FreeEdit::Paste(text))),
         None => {}
     }
 }

@@ -141,7 +141,7 @@ fn matrix(
         Some(Typed::Cell(row, column, text)) => {
             out.edit(Edit::Lipschitz(LipschitzEdit::Cell { matrix, row, column, text }));
         }
-        Some(Typed::Block(text)) => out.edit(Edit::Lipschitz(LipschitzEdit::Paste { matrix, text })),
+        Some(Typed::Block { text, .. }) => out.edit(Edit::Lipschitz(LipschitzEdit::Paste { matrix, text })),
         None => {}
     }
 }

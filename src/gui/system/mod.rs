@@ -7,7 +7,7 @@ mod partition;
 use egui::{RichText, Ui};
 
 use super::entry_grid::pasted_block;
-use super::{Output, Widgets, matrix_grid, theme};
+use super::{Output, Widgets, matrix_grid, network, theme};
 use crate::document::{DescriptorData, Document, EntryMatrix, Matrix, PlantData};
 use crate::session::{Derived, Edit, Session, Size};
 use crate::system::TimeDomain;
@@ -31,9 +31,7 @@ pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Wid
             lipschitz::show(ui, session, derived, widgets, out);
             partition::show(ui, session, data, out);
         }
-        PlantData::Network(_) => {
-            ui.label("This document holds a network of subsystems; its expanded matrices are used.");
-        }
+        PlantData::Network(data) => network::show(ui, session, data, widgets, out),
     }
     properties(ui, derived);
 }
@@ -120,18 +118,14 @@ fn stepper(ui: &mut Ui, of: Size, name: &str, count: usize, out: &mut Output) {
 }
 
 /// Draws a number with its buttons, called `Fewer` and `More` of `label`; whether one more is wanted.
-fn steps(ui: &mut Ui, label: &str, shown: &str, count: usize) -> Option<bool> {
+pub(super) fn steps(ui: &mut Ui, label: &str, shown: &str, count: usize) -> Option<bool> {
     let mut clicked = None;
     egui::Frame::new().fill(ui.visuals().faint_bg_color).corner_radius(4.0).inner_margin(3.0).show(
         ui,
         |ui| {
             ui.horizontal(|ui| {
                 for (symbol, grow, word) in [("-", false, "Fewer"), ("+", true, "More")] {
-                    let response = ui.add(egui::Button::new(symbol).min_size(egui::vec2(24.0, 24.0)));
-                    response.ctx.accesskit_node_builder(response.id, |node| {
-                        node.set_label(format!("{word} {label}"));
-                    });
-                    if response.clicked() {
+                    if bump(ui, symbol, &format!("{word} {label}")) {
                         clicked = Some(grow);
                     }
                     if !grow {
@@ -148,6 +142,13 @@ fn steps(ui: &mut Ui, label: &str, shown: &str, count: usize) -> Option<bool> {
         },
     );
     clicked
+}
+
+/// A small button beside a number; whether it was clicked.
+pub(super) fn bump(ui: &mut Ui, symbol: &str, label: &str) -> bool {
+    let response = ui.add(egui::Button::new(symbol).min_size(egui::vec2(24.0, 24.0)));
+    response.ctx.accesskit_node_builder(response.id, |node| node.set_label(label));
+    response.clicked()
 }
 
 fn properties(ui: &mut Ui, derived: &Derived) {

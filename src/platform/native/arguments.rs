@@ -23,6 +23,18 @@ struct Given {
     version: bool,
 }
 
+/// The document that the window is to open: the only argument, when it names a file and no command.
+///
+/// A file is meant by a name with a folder or ending in `.json`; any other word is left to [`parse`], which knows the
+/// commands and proposes one for a mistyped word.
+pub fn document_to_open(arguments: &[OsString]) -> Option<PathBuf> {
+    let [only] = arguments else { return None };
+    let path = PathBuf::from(only);
+    let option = only.to_str().is_some_and(|text| text.starts_with('-') || text.starts_with("example:"));
+    let json = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
+    (!option && (json || path.components().count() > 1)).then_some(path)
+}
+
 /// Understands the arguments behind the program's name.
 ///
 /// # Errors
@@ -154,6 +166,20 @@ mod tests {
             ("--version", Request::Version),
         ] {
             assert_eq!(parsed(line), Ok(request), "{line}");
+        }
+    }
+
+    #[test]
+    fn a_document_alone_is_for_the_window() {
+        let opened = |line: &str| {
+            let arguments: Vec<OsString> = line.split_whitespace().map(OsString::from).collect();
+            document_to_open(&arguments).map(|path| path.to_string_lossy().into_owned())
+        };
+        for line in ["a.json", "A.JSON", "../a", "folder/document", "/a/b.txt"] {
+            assert_eq!(opened(line).as_deref(), Some(line), "{line} is a file");
+        }
+        for line in ["", "check", "chek", "-", "--help", "example:x", "check a.json", "a.json b.json"] {
+            assert_eq!(opened(line), None, "{line} is for the commands");
         }
     }
 

@@ -65,7 +65,8 @@ impl Files for Dialogs {
     }
 }
 
-fn read(path: &Path) -> Arrival {
+/// The text of a document in a file, or why it cannot be read.
+pub(in crate::platform) fn read(path: &Path) -> Arrival {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let limited = || -> std::io::Result<Result<Vec<u8>, Arrival>> {
         let file = File::open(path)?;

@@ -10,7 +10,7 @@ mod threads;
 use std::ffi::OsString;
 use std::io::{stderr, stdout};
 
-pub use arguments::parse;
+pub use arguments::{document_to_open, parse};
 pub use files::NativeFiles;
 pub use parallel::Threads;
 pub(super) use threads::ThreadRunner;
