@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::entry::{Entry, EntryMatrix};
+use super::initial::InitialFormula;
 use super::limits::MAX_EXPANDED;
 use crate::numerics::Tolerance;
 use crate::observer::DesignChoice;
@@ -216,8 +217,10 @@ pub struct ScenarioData {
     pub horizon: f64,
     /// Output samples.
     pub samples: usize,
-    /// Initial state; the algebraic part is projected.
+    /// Initial state, an entry for each state or none; the algebraic part is projected.
     pub x0: Vec<Entry>,
+    /// Initial state as one expression, which counts while there are no entries.
+    pub x0_formula: Option<InitialFormula>,
     /// Known inputs.
     pub u: Vec<Signal>,
     /// Unknown inputs.
@@ -386,9 +389,8 @@ impl Document {
 
     /// The scenario with missing signals and initial states filled by zeros.
     pub fn scenario(&self, system: &DescriptorSystem) -> Scenario {
-        let ScenarioData { horizon, samples, x0, u, d, noise, uncertainty, free } = &self.scenario;
-        let mut x0: Vec<f64> = x0.iter().map(|entry| entry.value).collect();
-        x0.resize(system.n_states(), 0.0);
+        let ScenarioData { horizon, samples, u, d, noise, uncertainty, free, .. } = &self.scenario;
+        let x0 = self.scenario.initial_values(system.n_states());
         let uncertainty = uncertainty.as_ref().map(|data| crate::simulation::Uncertainty {
             amplitude: data.amplitude.values(),
             frequency: data.frequency.values(),

@@ -2,6 +2,7 @@
 
 mod commands;
 mod compare;
+mod errata;
 mod examples;
 mod figures;
 mod help;
@@ -79,6 +80,8 @@ pub enum Request {
         /// File to write to; standard output without.
         out: Option<PathBuf>,
     },
+    /// The misprints of the paper with this key; of all papers without.
+    Errata(Option<String>),
     /// How to use the commands.
     Help,
     /// The version of the program.
@@ -147,6 +150,7 @@ pub fn run(request: &Request, files: &dyn Files, out: &mut dyn Write, err: &mut 
         Request::Compare(source, format) => compare::compare(source, *format, files),
         Request::Figures { source, out, only } => figures::figures(source, out, only.as_deref(), files),
         Request::Examples { key, out } => examples::examples(key.as_deref(), out.as_deref(), files),
+        Request::Errata(paper) => errata::list(paper.as_deref()),
         Request::Help => Ok(Answer { text: HELP.to_owned(), ..Answer::default() }),
         Request::Version => Ok(Answer { text: format!("descry {VERSION}\n"), ..Answer::default() }),
     };

@@ -161,7 +161,12 @@ fn bode_range(observer: &LinearObserver, time: TimeDomain) -> [f64; 2] {
     [10_f64.powf(decade - 4.0), 10_f64.powf(decade + 2.0)]
 }
 
-fn figure(id: &str, title: &str, caption: &str, panels: impl Iterator<Item = Panel>) -> FigureSpec {
+pub(super) fn figure(
+    id: &str,
+    title: &str,
+    caption: &str,
+    panels: impl Iterator<Item = Panel>,
+) -> FigureSpec {
     FigureSpec {
         id: id.to_owned(),
         title: title.to_owned(),

@@ -2,11 +2,14 @@
 
 use super::command::Edit;
 use super::edit_compare::CompareEdit;
+use super::edit_free::FreeEdit;
 use super::follow::follow;
 use super::model_edits::{GivenPart, LipschitzEdit, LmiEdit, PartitionEdit};
 use super::state::{Draft, Field, Message, Session};
 use super::update::{Edited, replace};
-use super::{edit_compare, edit_lipschitz, edit_lmi, edit_partition, edit_plant, edit_scenario, poles};
+use super::{
+    edit_compare, edit_free, edit_lipschitz, edit_lmi, edit_partition, edit_plant, edit_scenario, poles,
+};
 use crate::document::{Document, Entry, EntryMatrix, PlantData, limits};
 
 /// Carries out an edit as one step, or as a part of the drag that it belongs to.
@@ -19,6 +22,7 @@ pub(super) fn apply(session: &mut Session, edit: Edit) {
         Edit::Fill { matrix, .. } => Some(*matrix),
         _ => None,
     };
+    let fed_back = matches!(edit, Edit::Free(FreeEdit::Feedback(_) | FreeEdit::Paste(_)));
     let exchanged = matches!(&edit, Edit::Compare(edit) if edit_compare::exchanges(edit));
     let waiting = if ends { waiting_fields(&edit) } else { None };
     let mut document = (*session.document).clone();
@@ -37,6 +41,9 @@ pub(super) fn apply(session: &mut Session, edit: Edit) {
                 session
                     .drafts
                     .retain(|field, _| !matches!(field, Field::Cell(cell) if cell.matrix == matrix));
+            }
+            if fed_back {
+                session.drafts.retain(|field, _| !matches!(field, Field::FreeFeedback(..)));
             }
             replace(session, document, drag.map(|(key, _)| key));
             if !told.is_empty() {
@@ -112,8 +119,12 @@ fn keeps_meaning(field: &Field, document: &Document, resized: bool) -> bool {
     };
     let lmi = &document.design.lmi;
     match field {
-        Field::Poles => true,
-        Field::Cell(_) | Field::Initial(_) | Field::Signal(..) | Field::Uncertainty(..) => !resized,
+        Field::Poles | Field::InitialFormula => true,
+        Field::Cell(_)
+        | Field::Initial(_)
+        | Field::Signal(..)
+        | Field::Uncertainty(..)
+        | Field::FreeSignal(_) => !resized,
         Field::Rows(subsystem, row, column) => {
             let there = |rows: &nalgebra::DMatrix<f64>| *row < rows.nrows() && *column < rows.ncols();
             !resized && lmi.rows.get(*subsystem).is_some_and(there)
@@ -122,6 +133,7 @@ fn keeps_meaning(field: &Field, document: &Document, resized: bool) -> bool {
         Field::Lipschitz(..) => !resized && nonlinearity.is_some(),
         Field::Component(index) => nonlinearity.is_some_and(|lipschitz| *index < lipschitz.f.len()),
         Field::LipschitzConstant => nonlinearity.is_some(),
+        Field::FreeFeedback(..) => !resized && document.scenario.free.feedback.is_some(),
         Field::KeptName(index) => *index < document.kept.len(),
     }
 }
@@ -170,6 +182,7 @@ fn typed_field(edit: &Edit) -> Option<Field> {
         Edit::Cell { cell, .. } => Some(Field::Cell(*cell)),
         Edit::Poles(_) | Edit::MovePole { .. } => Some(Field::Poles),
         Edit::Initial { state, .. } => Some(Field::Initial(*state)),
+        Edit::InitialFormula(_) => Some(Field::InitialFormula),
         Edit::Signal { list, index, .. } => Some(Field::Signal(*list, *index)),
         Edit::UncertaintyCell { row, column, frequency, .. } => {
             Some(Field::Uncertainty(*row, *column, *frequency))
@@ -183,6 +196,8 @@ fn typed_field(edit: &Edit) -> Option<Field> {
         }
         Edit::Lipschitz(LipschitzEdit::Component { index, .. }) => Some(Field::Component(*index)),
         Edit::Lipschitz(LipschitzEdit::Constant(_)) => Some(Field::LipschitzConstant),
+        Edit::Free(FreeEdit::Signal { index, .. }) => Some(Field::FreeSignal(*index)),
+        Edit::Free(FreeEdit::Cell { row, column, .. }) => Some(Field::FreeFeedback(*row, *column)),
         Edit::Compare(CompareEdit::Rename { kept, .. }) => Some(Field::KeptName(*kept)),
         _ => None,
     }
@@ -241,8 +256,10 @@ fn change(document: &mut Document, edit: Edit) -> Edited {
         }
         Edit::Partition(edit) => return edit_partition::change(document, edit),
         Edit::Lipschitz(edit) => return edit_lipschitz::change(document, edit),
+        Edit::Free(edit) => return edit_free::change(document, edit),
         Edit::Compare(edit) => return edit_compare::change(document, edit),
         Edit::Initial { .. }
+        | Edit::InitialFormula(_)
         | Edit::Signal { .. }
         | Edit::Horizon(_)
         | Edit::Samples(_)

@@ -1,6 +1,7 @@
 //! Every intent of a user, as data: the menu, the shortcuts and the tests are made of these.
 
 use super::edit_compare::CompareEdit;
+use super::edit_free::FreeEdit;
 use super::model_edits::{LipschitzEdit, LmiEdit, PartitionEdit};
 use crate::document::Matrix;
 use crate::numerics::Complex64;
@@ -102,6 +103,8 @@ pub enum Edit {
         /// What was typed.
         text: String,
     },
+    /// Initial states of all components as one expression in `i`, as typed; empty for zeros.
+    InitialFormula(String),
     /// A signal, as typed.
     Signal {
         /// Which list.
@@ -148,6 +151,8 @@ pub enum Edit {
     Partition(PartitionEdit),
     /// The nonlinearity.
     Lipschitz(LipschitzEdit),
+    /// What drives the states that the equations leave free.
+    Free(FreeEdit),
     /// The designs that are kept to be compared.
     Compare(CompareEdit),
 }
@@ -236,6 +241,8 @@ pub enum Tab {
     Poles,
     /// Frequency responses.
     Bode,
+    /// Designs along a sweep of the bandwidth or of the decay.
+    TradeOff,
     /// The chosen design beside those that are kept.
     Compare,
     /// Figures of the document.
@@ -244,13 +251,14 @@ pub enum Tab {
 
 impl Tab {
     /// All views, in the order in which they are offered.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Overview,
         Self::States,
         Self::Errors,
         Self::UnknownInput,
         Self::Poles,
         Self::Bode,
+        Self::TradeOff,
         Self::Compare,
         Self::Figures,
     ];
@@ -264,6 +272,7 @@ impl Tab {
             Self::UnknownInput => "Unknown input",
             Self::Poles => "Poles",
             Self::Bode => "Bode",
+            Self::TradeOff => "Trade-off",
             Self::Compare => "Compare",
             Self::Figures => "Paper figures",
         }

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::free_report::FreeReport;
 use crate::document::{Document, Subject};
 use crate::numerics::Watch;
 use crate::paper::{ComparisonFigures, comparison as figures};
@@ -30,7 +31,10 @@ pub(super) fn compared(document: &Document, watch: &Watch) -> Option<Result<Box<
             let scenario = document.scenario(&model.system);
             let found = compare(&model, &scenario, &contenders, tolerance, watch)?;
             let figures = figures(&found, &model.system);
-            ComparisonView { comparison: found.comparison, figures }
+            let Comparison { rows, notes } = found.comparison;
+            // what stands in the scenario's place is not said again
+            let notes = FreeReport::without_own(FreeReport::new(document, &model).as_ref(), notes);
+            ComparisonView { comparison: Comparison { rows, notes }, figures }
         }
     };
     Some(Ok(Box::new(view)))

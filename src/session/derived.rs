@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::analysis::Analysis;
 use super::command::Tab;
 use super::comparison::ComparisonView;
-use super::job::{JobReply, JobRequest, Outcome, Task};
+use super::job::{JobReply, JobRequest, Outcome, TRADE_OFF, Task};
 use super::state::Session;
 use crate::paper::FigureSpec;
 
@@ -41,6 +41,11 @@ impl Derived {
     /// The newest result for a figure.
     pub fn figure(&self, id: &str) -> Option<&Result<FigureSpec, String>> {
         self.figures.get(id).map(|(_, figure)| figure)
+    }
+
+    /// The newest picture of a sweep.
+    pub fn trade_off(&self) -> Option<&Result<FigureSpec, String>> {
+        self.figure(TRADE_OFF)
     }
 
     /// The newest comparison, or why there is none; it may belong to an earlier revision while the next is computed.
@@ -103,8 +108,12 @@ impl Derived {
             }
             Task::Compare
         } else {
-            let id = session.view().figure.clone().filter(|_| session.view().tab == Tab::Figures)?;
-            let exists = session.document().figures.iter().any(|figure| figure.id == id);
+            let id = match session.view().tab {
+                Tab::Figures => session.view().figure.clone()?,
+                Tab::TradeOff => TRADE_OFF.to_owned(),
+                _ => return None,
+            };
+            let exists = id == TRADE_OFF || session.document().figures.iter().any(|figure| figure.id == id);
             let current = self.figures.get(&id).is_some_and(|(of, _)| *of == revision);
             if current || !exists {
                 return None;

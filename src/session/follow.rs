@@ -2,9 +2,9 @@
 
 use nalgebra::DMatrix;
 
-use super::edit_lipschitz;
 use super::edit_lmi::{fit_given, follow_time, time};
 use super::follow_kept::follow_kept;
+use super::{edit_free, edit_lipschitz};
 use crate::document::{Document, EntryMatrix, Matrix, PlantData, Sizes};
 use crate::observer::Method;
 use crate::system::{Subsystem, check_partition};
@@ -16,6 +16,7 @@ use crate::system::{Subsystem, check_partition};
 pub(super) fn follow(document: &mut Document, before: &Document) -> Result<Vec<String>, String> {
     let mut gone = Vec::new();
     gone.extend(edit_lipschitz::follow_sizes(document));
+    edit_free::follow_sizes(document);
     gone.extend(partition(document, before)?);
     gone.extend(fit_design(document, before));
     gone.extend(follow_kept(document, before));

@@ -1,11 +1,14 @@
 //! L4: the application without a screen: state, commands, the one writer, jobs and what is derived.
 
 mod analysis;
+mod analysis_network;
+mod analysis_properties;
 mod apply;
 mod command;
 mod comparison;
 mod derived;
 mod edit_compare;
+mod edit_free;
 mod edit_lipschitz;
 mod edit_lmi;
 mod edit_partition;
@@ -14,6 +17,7 @@ mod edit_scenario;
 mod edit_sensor;
 mod follow;
 mod follow_kept;
+mod free_report;
 mod history;
 mod job;
 mod light;
@@ -30,6 +34,8 @@ pub use command::{
 pub use comparison::ComparisonView;
 pub use derived::Derived;
 pub use edit_compare::CompareEdit;
+pub use edit_free::FreeEdit;
+pub use free_report::FreeReport;
 pub use history::History;
 pub use job::{JobReply, JobRequest, Outcome, Task, perform};
 pub use model_edits::{GivenPart, LipschitzEdit, LipschitzMatrix, LmiEdit, PartitionEdit, Share};

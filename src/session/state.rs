@@ -29,6 +29,8 @@ pub enum Field {
     Poles,
     /// The initial state of one component.
     Initial(usize),
+    /// The initial states of all components as one expression.
+    InitialFormula,
     /// A signal.
     Signal(SignalList, usize),
     /// A cell of the uncertainty: row, column, whether it is the frequency.
@@ -43,6 +45,10 @@ pub enum Field {
     Component(usize),
     /// The Lipschitz constant.
     LipschitzConstant,
+    /// The signal of a free variable.
+    FreeSignal(usize),
+    /// An entry of the feedback of the free variables: row, column.
+    FreeFeedback(usize, usize),
     /// The name of a kept design, from zero.
     KeptName(usize),
 }

@@ -7,6 +7,7 @@
 mod comparison;
 mod condition;
 mod design;
+mod errata;
 mod figures;
 mod properties;
 mod trajectory;
@@ -19,6 +20,7 @@ use super::model::Document;
 use super::pretty::pretty;
 use crate::numerics::Complex64;
 use crate::observer::{Assessment, Condition};
+use crate::paper::Erratum;
 use crate::simulation::Trajectory;
 use crate::simulation::comparison::Comparison;
 use crate::system::{DescriptorSystem, Model, TimeDomain};
@@ -74,6 +76,12 @@ pub fn comparison_report(document: &Document, comparison: &Comparison) -> String
     put_command(&mut map, "compare", document);
     comparison::put(&mut map, comparison);
     pretty(&Value::Object(map))
+}
+
+/// Report of `descry errata`: misprints with what proves them.
+pub fn errata_report(found: &[&Erratum]) -> String {
+    let listed: Vec<Value> = found.iter().map(|erratum| errata::erratum(erratum)).collect();
+    pretty(&json!({ "descry_report": REPORT_VERSION, "command": "errata", "errata": listed }))
 }
 
 fn put_command(map: &mut Map<String, Value>, command: &str, document: &Document) {

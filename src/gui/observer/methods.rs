@@ -104,6 +104,15 @@ pub(super) fn orders(ui: &mut Ui, session: &Session, out: &mut Output) {
 
 /// Name and meaning of an order.
 fn order_words(method: Method, order: Order) -> (&'static str, &'static str) {
+    match (method, order) {
+        (Method::InputDecoupled, Order::Full) => {
+            return ("Full", "The paper's observer, of order rank E; needs (A1), (A2) and (A3).");
+        }
+        (Method::InputDecoupled, Order::General) => {
+            return ("General", "Not in the paper: of the same order, and does not need (A1).");
+        }
+        _ => {}
+    }
     match (order, method.uses_lmi()) {
         (Order::Reduced, false) => {
             ("Reduced", "What the outputs already tell is not estimated again; best conditioned.")

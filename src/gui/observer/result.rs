@@ -3,18 +3,19 @@
 use egui::{RichText, Ui};
 
 use super::super::{formula, theme};
-use crate::document::{MatrixSyntax, matrix_to_text};
+use super::errata;
+use crate::document::{Document, MatrixSyntax, matrix_to_text};
 use crate::observer::{Design, Method, NamedMatrix};
-use crate::paper::errata;
+use crate::paper::printed;
 
 /// Draws the gains, the checks and the notes of a design.
-pub(super) fn show(ui: &mut Ui, method: Method, design: &Design) {
+pub(super) fn show(ui: &mut Ui, document: &Document, method: Method, design: &Design) {
     for note in &design.notes {
         ui.label(RichText::new(note).small().color(theme::near(ui)));
     }
     egui::CollapsingHeader::new("Gains").default_open(true).show(ui, |ui| {
         for matrix in &design.matrices {
-            named_matrix(ui, method, matrix);
+            named_matrix(ui, document, method, matrix);
         }
         formula::remark(ui, equations(method));
     });
@@ -63,7 +64,7 @@ fn equations(method: Method) -> &'static str {
     }
 }
 
-fn named_matrix(ui: &mut Ui, method: Method, matrix: &NamedMatrix) {
+fn named_matrix(ui: &mut Ui, document: &Document, method: Method, matrix: &NamedMatrix) {
     ui.horizontal(|ui| {
         ui.label(RichText::new(&matrix.name).strong());
         formula::remark(ui, &matrix.meaning);
@@ -76,32 +77,39 @@ fn named_matrix(ui: &mut Ui, method: Method, matrix: &NamedMatrix) {
             }
         });
     });
-    egui::ScrollArea::horizontal().id_salt(("named", &matrix.name)).auto_shrink([false, true]).show(
-        ui,
-        |ui| {
-            egui::Grid::new(("named-grid", &matrix.name)).spacing([14.0, 2.0]).show(ui, |ui| {
-                for row in matrix.value.row_iter() {
-                    for value in row.iter() {
-                        let text = RichText::new(digits(*value)).monospace();
-                        let text = if value.abs() < 1e-12 { text.color(theme::faint(ui)) } else { text };
-                        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.label(text));
-                    }
-                    ui.end_row();
-                }
-            });
-        },
-    );
     // a local observer's matrix carries the name of its subsystem: `N (first)`
     let letter = matrix.name.split(" (").next().unwrap_or_default();
-    for erratum in errata(method.paper()).filter(|erratum| erratum.concerns == letter) {
-        formula::remark(
-            ui,
-            &format!(
-                "Misprint, {}: printed \"{}\", correct \"{}\"",
-                erratum.place, erratum.printed, erratum.correct
-            ),
-        );
-    }
+    let known = printed(method.paper(), letter, &matrix.value);
+    egui::ScrollArea::horizontal().id_salt(("named", &matrix.name)).auto_shrink([false, true]).show(
+        ui,
+        |ui| match known {
+            None => entries(ui, matrix),
+            Some(known) => {
+                ui.horizontal_top(|ui| {
+                    errata::printed(ui, known, digits);
+                    ui.separator();
+                    ui.vertical(|ui| {
+                        formula::remark(ui, "ours");
+                        entries(ui, matrix);
+                    });
+                });
+            }
+        },
+    );
+    errata::beside(ui, (method.paper(), letter), document);
+}
+
+fn entries(ui: &mut Ui, matrix: &NamedMatrix) {
+    egui::Grid::new(("named-grid", &matrix.name)).spacing([14.0, 2.0]).show(ui, |ui| {
+        for row in matrix.value.row_iter() {
+            for value in row.iter() {
+                let text = RichText::new(digits(*value)).monospace();
+                let text = if value.abs() < 1e-12 { text.color(theme::faint(ui)) } else { text };
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.label(text));
+            }
+            ui.end_row();
+        }
+    });
 }
 
 /// Four decimals, or powers of ten where they would not show the number.

@@ -9,7 +9,8 @@ use lexopt::{Parser, ValueExt as _};
 use crate::document::nearest;
 use crate::headless::{Format, Request, Source, TableFormat};
 
-const COMMANDS: [&str; 7] = ["check", "design", "simulate", "compare", "figures", "examples", "help"];
+const COMMANDS: [&str; 8] =
+    ["check", "design", "simulate", "compare", "figures", "examples", "errata", "help"];
 
 /// What stands on the command line, before it is put together.
 #[derive(Default)]
@@ -68,6 +69,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, S
             let key = argument.map(|key| key.to_string_lossy().into_owned());
             Ok(Request::Examples { key, out: given.out })
         }
+        "errata" => Ok(Request::Errata(argument.map(|paper| paper.to_string_lossy().into_owned()))),
         "help" => Ok(Request::Help),
         other => {
             let hint =
@@ -145,6 +147,8 @@ mod tests {
             ("figures --only f1 -o d example:x", figures(Some("f1".into()))),
             ("examples", Request::Examples { key: None, out: None }),
             ("examples k --out f", Request::Examples { key: Some("k".into()), out: Some("f".into()) }),
+            ("errata", Request::Errata(None)),
+            ("errata 004", Request::Errata(Some("004".into()))),
             ("help", Request::Help),
             ("check --help", Request::Help),
             ("--version", Request::Version),

@@ -11,7 +11,7 @@ use crate::system::{DescriptorSystem, TimeDomain};
 ///
 /// # Errors
 /// When a decomposition fails its check.
-pub(super) fn judged(
+pub(in crate::simulation) fn judged(
     system: &DescriptorSystem,
     design: &Design,
     tolerance: &Tolerance,

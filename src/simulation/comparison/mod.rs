@@ -8,6 +8,7 @@ mod runs;
 use serde::{Deserialize, Serialize};
 
 pub use errors::{ErrorSize, ScenarioErrors};
+pub(super) use judged::judged;
 pub use network::compare_network;
 pub use runs::{ComparedRun, Motion};
 
