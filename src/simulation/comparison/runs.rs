@@ -83,7 +83,7 @@ fn name_observers(trajectory: &mut Trajectory, names: &[&str]) {
     }
 }
 
-/// Notes and remarks of all trajectories, each once.
+/// Notes and remarks of all trajectories, each once; one that is not of all has the name of its design.
 pub(super) fn notes(runs: &[ComparedRun], comparison: &Comparison) -> Vec<String> {
     let mut notes: Vec<String> = Vec::new();
     let mut add = |note: String| {
@@ -91,10 +91,15 @@ pub(super) fn notes(runs: &[ComparedRun], comparison: &Comparison) -> Vec<String
             notes.push(note);
         }
     };
-    for run in runs {
-        let Some(motion) = &run.motion else { continue };
+    let motions = || runs.iter().filter_map(|run| Some((run.row, run.motion.as_ref()?)));
+    for (row, motion) in motions() {
         let Trajectory { note, remarks, initial_state, .. } = motion.trajectory.as_ref();
-        note.iter().chain(remarks).cloned().for_each(&mut add);
+        if let Some(note) = note {
+            let of_all = motions().all(|(_, other)| other.trajectory.note.as_ref() == Some(note));
+            let name = comparison.rows.get(row).map_or("", |row| row.name.as_str());
+            add(if of_all { note.clone() } else { format!("{name}: {note}") });
+        }
+        remarks.iter().cloned().for_each(&mut add);
         if initial_state.change > 1e-9 {
             let values: Vec<String> = initial_state.consistent.iter().map(|x| format!("{x:.4}")).collect();
             add(format!(
