@@ -3,7 +3,8 @@
 use nalgebra::DMatrix;
 
 use super::matrix_text::csv_number;
-use crate::paper::{FigureSpec, Panel, Series};
+use super::read::Sizes;
+use crate::paper::{FigureSpec, Motion, Panel, Quantity, Series};
 use crate::simulation::Trajectory;
 
 /// Writes the curves of a figure.
@@ -100,6 +101,32 @@ pub fn trajectory_to_csv(trajectory: &Trajectory) -> String {
     let mut text = line(std::iter::once("t".to_owned()).chain(names));
     for (k, t) in t.iter().enumerate() {
         let values = columns.iter().map(|(_, matrix, i)| matrix[(*i, k)]);
+        text.push_str(&line(std::iter::once(*t).chain(values).map(csv_number)));
+    }
+    text
+}
+
+/// Writes what was simulated of a network with the columns `t, y1.., z1.., x1.., z1_hat.., x1_hat.., ez1.., e1..`, states and
+/// outputs numbered as in the expanded network; what was not simulated or is not estimated has no column.
+pub fn motion_to_csv(motion: &Motion, sizes: &Sizes) -> String {
+    let order = motion.order_of_whole();
+    let all = [
+        (Quantity::Output, sizes.outputs),
+        (Quantity::Whole, order),
+        (Quantity::State, sizes.states),
+        (Quantity::WholeEstimate, order),
+        (Quantity::Estimate, sizes.states),
+        (Quantity::WholeError, order),
+        (Quantity::Error, sizes.states),
+    ];
+    let columns = all.into_iter().flat_map(|(quantity, count)| (0..count).map(move |k| (quantity, k)));
+    let columns: Vec<(String, Vec<[f64; 2]>)> = columns
+        .map(|(quantity, k)| (quantity.name(k), motion.samples(quantity, k)))
+        .filter(|(_, points)| !points.is_empty())
+        .collect();
+    let mut text = line(std::iter::once("t".to_owned()).chain(columns.iter().map(|(name, _)| name.clone())));
+    for (k, t) in motion.t().iter().enumerate() {
+        let values = columns.iter().filter_map(|(_, points)| points.get(k).map(|[_, value]| *value));
         text.push_str(&line(std::iter::once(*t).chain(values).map(csv_number)));
     }
     text

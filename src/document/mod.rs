@@ -29,7 +29,7 @@ mod write;
 
 pub use entry::{Entry, EntryMatrix};
 pub use error::DocumentError;
-pub use export_csv::{figure_to_csv, trajectory_to_csv};
+pub use export_csv::{figure_to_csv, motion_to_csv, trajectory_to_csv};
 pub use export_svg::figure_to_svg;
 pub use import::{ImportError, PastedMatrix, matrix_from_text};
 pub use initial::InitialFormula;

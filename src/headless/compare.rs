@@ -1,16 +1,24 @@
 //! `compare`: the chosen design beside those that are kept.
 
-use super::load::{Problem, load};
+use super::load::load;
 use super::{Answer, BAD_INPUT, DONE, Files, REFUSED, Refusal, Source, TableFormat};
 use crate::document::comparison::{comparison_to_csv, comparison_to_markdown};
 use crate::document::report::comparison_report;
+use crate::document::{Document, Subject};
 use crate::numerics::Watch;
-use crate::simulation::comparison::{Compared, Comparison, compare as compare_designs};
+use crate::simulation::comparison::{Compared, Comparison, compare as compare_designs, compare_network};
+use crate::system::Model;
 
 /// The table of all designs.
 pub(super) fn compare(source: &Source, format: TableFormat, files: &dyn Files) -> Result<Answer, Refusal> {
     let problem = load(source, files)?;
-    let Compared { comparison, .. } = compared(&problem)?;
+    let comparison = match &problem.subject {
+        Subject::Model(model) => compared(&problem.document, model)?.comparison,
+        Subject::Network(network) => {
+            let (contenders, tolerance) = (problem.document.contenders(), &problem.document.tolerance);
+            compare_network(network, &contenders, tolerance, &Watch::none()).ok_or_else(cancelled)?
+        }
+    };
     let text = match format {
         TableFormat::Json => comparison_report(&problem.document, &comparison),
         TableFormat::Markdown => comparison_to_markdown(&comparison),
@@ -20,12 +28,14 @@ pub(super) fn compare(source: &Source, format: TableFormat, files: &dyn Files) -
 }
 
 /// Compares the designs of a document.
-pub(super) fn compared(problem: &Problem) -> Result<Compared, Refusal> {
-    let Problem { document, model } = problem;
+pub(super) fn compared(document: &Document, model: &Model) -> Result<Compared, Refusal> {
     let scenario = document.scenario(&model.system);
     let contenders = document.contenders();
-    compare_designs(model, &scenario, &contenders, &document.tolerance, &Watch::none())
-        .ok_or_else(|| Refusal::refused("the comparison was cancelled"))
+    compare_designs(model, &scenario, &contenders, &document.tolerance, &Watch::none()).ok_or_else(cancelled)
+}
+
+fn cancelled() -> Refusal {
+    Refusal::refused("the comparison was cancelled")
 }
 
 /// What became of designs that do not exist or are not verified.

@@ -5,11 +5,12 @@ use std::path::Path;
 use super::commands::simulated;
 use super::compare::compared;
 use super::load::{Problem, load};
-use super::{Answer, DONE, Files, REFUSED, Refusal, Source};
+use super::{Answer, DONE, Files, REFUSED, Refusal, Source, network};
 use crate::document::report::{FigureFiles, WrittenFigure, figures_report};
-use crate::document::{Document, figure_to_csv, figure_to_svg, nearest};
+use crate::document::{Document, Subject, figure_to_csv, figure_to_svg, nearest};
 use crate::numerics::Watch;
-use crate::paper::{self, FigureSpec, compute_figure, standard};
+use crate::paper::{self, FigureSpec, Motion, standard};
+use crate::system::Model;
 
 /// A figure before it is written: key, title, and the figure or why there is none.
 type Computed = (String, String, Result<FigureSpec, String>);
@@ -48,23 +49,15 @@ pub(super) fn figures(
 
 /// The chosen figures of the document, or the standard ones when it has none.
 fn computed(problem: &Problem, chosen: &dyn Fn(&str) -> bool) -> Result<Vec<Computed>, Refusal> {
-    let Problem { document, model } = problem;
-    let system = &model.system;
+    let document = &problem.document;
     if let Some(figures) = of_comparison(problem, chosen)? {
         return Ok(figures);
     }
     if document.figures.is_empty() {
         return standard_figures(problem, chosen);
     }
-    let scenario = document.scenario(system);
-    let problem = paper::Problem {
-        model,
-        design: &document.design,
-        scenario: &scenario,
-        tolerance: &document.tolerance,
-    };
     let recipes = document.figures.iter().filter(|recipe| chosen(&recipe.id));
-    let figure = |recipe: &paper::FigureRecipe| compute_figure(&problem, recipe, &Watch::none());
+    let figure = |recipe: &paper::FigureRecipe| document.draw(recipe, &Watch::none());
     Ok(recipes.map(|recipe| (recipe.id.clone(), recipe.title.clone(), figure(recipe))).collect())
 }
 
@@ -74,7 +67,8 @@ fn of_comparison(problem: &Problem, chosen: &dyn Fn(&str) -> bool) -> Result<Opt
     if chosen("") || !COMPARISON.iter().any(|id| chosen(id)) {
         return Ok(None);
     }
-    let figures = paper::comparison(&compared(problem)?, &problem.model.system);
+    let model = problem.model()?;
+    let figures = paper::comparison(&compared(&problem.document, model)?, &model.system);
     let computed = figures.all().filter(|figure| chosen(&figure.id));
     Ok(Some(computed.map(|figure| (figure.id.clone(), figure.title.clone(), Ok(figure.clone()))).collect()))
 }
@@ -84,16 +78,27 @@ const COMPARISON: [&str; 4] =
     ["comparison-states", "comparison-errors", "comparison-unknown-input", "comparison-gains"];
 
 fn standard_figures(problem: &Problem, chosen: &dyn Fn(&str) -> bool) -> Result<Vec<Computed>, Refusal> {
-    let (design, trajectory) = simulated(problem)?;
-    let (time, partition) = (problem.model.system.time, problem.model.partition.as_slice());
+    let mut figures = match &problem.subject {
+        Subject::Model(model) => figures_of_system(&problem.document, model)?,
+        Subject::Network(network) => network::standard_figures(&problem.document, network)?,
+    };
+    figures.retain(|figure| chosen(&figure.id));
+    Ok(figures.into_iter().map(|figure| (figure.id.clone(), figure.title.clone(), Ok(figure))).collect())
+}
+
+fn figures_of_system(document: &Document, model: &Model) -> Result<Vec<FigureSpec>, Refusal> {
+    let (design, trajectory) = simulated(document, model)?;
+    if let Some(network) = &model.network {
+        return Ok(network::figures(network, &Motion::of_system(trajectory, &design)));
+    }
+    let (time, partition) = (model.system.time, model.partition.as_slice());
     let mut figures = vec![
         standard::states(&trajectory, time, partition),
         standard::errors(&trajectory, time, partition),
         standard::unknown_inputs(&trajectory, time),
     ];
-    figures.extend(standard::bode(&problem.model.system, &design));
-    figures.retain(|figure| chosen(&figure.id));
-    Ok(figures.into_iter().map(|figure| (figure.id.clone(), figure.title.clone(), Ok(figure))).collect())
+    figures.extend(standard::bode(&model.system, &design));
+    Ok(figures)
 }
 
 fn unknown(only: &str, document: &Document) -> Refusal {

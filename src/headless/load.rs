@@ -2,7 +2,7 @@
 
 use super::{Files, Refusal, Source};
 use crate::document::limits::MAX_BYTES;
-use crate::document::{Document, nearest, read_document};
+use crate::document::{Document, Subject, nearest, read_document};
 use crate::paper::{EXAMPLES, Example, example};
 use crate::system::Model;
 
@@ -10,7 +10,19 @@ use crate::system::Model;
 #[derive(Debug)]
 pub(super) struct Problem {
     pub(super) document: Document,
-    pub(super) model: Model,
+    pub(super) subject: Subject,
+}
+
+impl Problem {
+    /// The plant as one system.
+    pub(super) fn model(&self) -> Result<&Model, Refusal> {
+        match &self.subject {
+            Subject::Model(model) => Ok(model),
+            Subject::Network(_) => {
+                Err(Refusal::refused("the network is too large to be written as one system"))
+            }
+        }
+    }
 }
 
 /// Reads a document.
@@ -23,8 +35,8 @@ pub(super) fn load(source: &Source, files: &dyn Files) -> Result<Problem, Refusa
     };
     let at = |error: &dyn std::fmt::Display| Refusal::bad_input(format!("{name}: {error}"));
     let document = read_document(&text).map_err(|error| at(&error))?;
-    let model = document.model().map_err(|error| at(&error))?;
-    Ok(Problem { document, model })
+    let subject = document.subject().map_err(|error| at(&error))?;
+    Ok(Problem { document, subject })
 }
 
 /// The example with that key.

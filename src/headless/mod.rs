@@ -7,6 +7,7 @@ mod examples;
 mod figures;
 mod help;
 mod load;
+mod network;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};

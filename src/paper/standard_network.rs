@@ -31,8 +31,16 @@ pub struct Shown {
 }
 
 impl Shown {
+    /// How many states of estimated subsystems, and how many other subsystems, can be read on a screen.
+    pub const LIMITS: (usize, usize) = (MOST_STATES, MOST_OTHERS);
+
     /// Estimated subsystems first, those of which only some states are after them; of all no more than can be read.
     pub fn of(network: &Network, estimated: &[usize]) -> Self {
+        Self::at_most(network, estimated, Self::LIMITS)
+    }
+
+    /// The same with other limits: of states of estimated subsystems, and of subsystems that are not.
+    pub fn at_most(network: &Network, estimated: &[usize], (states, others): (usize, usize)) -> Self {
         let n = network.a.nrows();
         let mut count = vec![0; network.n_subsystems()];
         for k in estimated {
@@ -54,12 +62,12 @@ impl Shown {
                 listed(&rest)
             ));
         }
-        let most = (MOST_STATES / n).max(1);
+        let most = (states / n).max(1);
         if observed.len() > most {
             notes.push(format!("{most} of the {} subsystems that are estimated are shown", observed.len()));
             observed.truncate(most);
         }
-        let others: Vec<usize> = rest.into_iter().take(MOST_OTHERS).collect();
+        let others: Vec<usize> = rest.into_iter().take(others).collect();
         Self { observed, others, notes }
     }
 

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{complexes, matrix, number};
+use super::{complexes, matrix, network, number};
 use crate::numerics::{Placement, PlacementMethod};
 use crate::observer::{
     Assessment, Check, Design, DesignError, Injection, LinearObserver, LmiResult, Synthesis, Verification,
@@ -80,6 +80,7 @@ fn found(map: &mut Map<String, Value>, design: &Design) {
         }
         Synthesis::Lmi(results) => put("lmi", results.iter().map(lmi_result).collect()),
     }
+    put("hierarchical", design.hierarchical.as_deref().map_or(Value::Null, network::observers));
     put("injection", design.injection.as_ref().map_or(Value::Null, injection));
     put("verification", verification(&design.verification));
     put("notes", json!(design.notes));
@@ -125,7 +126,7 @@ fn lmi_result(result: &LmiResult) -> Value {
     })
 }
 
-fn placement(placement: &Placement) -> Value {
+pub(super) fn placement(placement: &Placement) -> Value {
     let method = match placement.method {
         PlacementMethod::NothingToPlace => "nothing to place",
         PlacementMethod::Direct => "direct",

@@ -9,6 +9,7 @@ mod condition;
 mod design;
 mod errata;
 mod figures;
+mod network;
 mod properties;
 mod trajectory;
 
@@ -16,14 +17,16 @@ use nalgebra::DMatrix;
 use serde_json::{Map, Value, json};
 
 use super::entry::number as finite_number;
-use super::model::Document;
+use super::model::{Document, PlantData};
 use super::pretty::pretty;
+use super::read::Sizes;
 use crate::numerics::Complex64;
+use crate::observer::hierarchical::HierarchicalObserver;
 use crate::observer::{Assessment, Condition};
-use crate::paper::Erratum;
+use crate::paper::{Erratum, Motion};
 use crate::simulation::Trajectory;
 use crate::simulation::comparison::Comparison;
-use crate::system::{DescriptorSystem, Model, TimeDomain};
+use crate::system::{Model, Network, TimeDomain};
 
 pub use figures::{FigureFiles, WrittenFigure};
 
@@ -32,11 +35,29 @@ pub const REPORT_VERSION: u64 = 1;
 
 /// Report of `descry check`: properties of the system and conditions of the chosen method.
 pub fn check_report(document: &Document, model: &Model, conditions: &[Condition]) -> String {
-    let mut map = head("check", document, &model.system);
-    map.insert("properties".to_owned(), properties::properties(&model.system, &document.tolerance));
+    let mut properties = properties::properties(&model.system, &document.tolerance);
+    if let Some(network) = &model.network {
+        properties.extend(network::properties(network, &document.tolerance));
+    }
+    checked(document, properties, conditions, document.design.method.missing(model))
+}
+
+/// Report of `descry check` for a network that is too large to be written as one system.
+pub fn network_check_report(document: &Document, network: &Network, conditions: &[Condition]) -> String {
+    let properties = network::properties(network, &document.tolerance);
+    checked(document, properties, conditions, document.design.method.missing_for(network))
+}
+
+fn checked(
+    document: &Document,
+    properties: Vec<Value>,
+    conditions: &[Condition],
+    unsuitable: Option<String>,
+) -> String {
+    let mut map = head("check", document);
+    map.insert("properties".to_owned(), Value::Array(properties));
     put_conditions(&mut map, conditions);
     let holds = conditions.iter().all(|condition| !condition.needed || condition.verdict.holds());
-    let unsuitable = document.design.method.missing(model);
     let verdict = match (&unsuitable, holds) {
         (Some(_), _) => "the method cannot be used",
         (None, true) => "the needed conditions hold",
@@ -48,17 +69,29 @@ pub fn check_report(document: &Document, model: &Model, conditions: &[Condition]
 }
 
 /// Report of `descry design`: conditions, the designs with their matrices, and their verification.
-pub fn design_report(document: &Document, system: &DescriptorSystem, assessment: &Assessment) -> String {
-    let mut map = head("design", document, system);
+pub fn design_report(document: &Document, assessment: &Assessment) -> String {
+    let mut map = head("design", document);
     put_conditions(&mut map, &assessment.conditions);
     map.insert("designs".to_owned(), Value::Array(vec![design::design(assessment)]));
     pretty(&Value::Object(map))
 }
 
 /// Report of `descry simulate --format json`, on one line.
-pub fn trajectory_report(document: &Document, system: &DescriptorSystem, trajectory: &Trajectory) -> String {
-    let mut map = head("simulate", document, system);
+pub fn trajectory_report(document: &Document, trajectory: &Trajectory) -> String {
+    let mut map = head("simulate", document);
     trajectory::put(&mut map, trajectory);
+    format!("{}\n", Value::Object(map))
+}
+
+/// The same for a network, whether it was written as one system or not: the whole, and each subsystem.
+pub fn network_motion_report(
+    document: &Document,
+    network: &Network,
+    observer: Option<&HierarchicalObserver>,
+    motion: &Motion,
+) -> String {
+    let mut map = head("simulate", document);
+    network::put_motion(&mut map, network, observer, motion);
     format!("{}\n", Value::Object(map))
 }
 
@@ -91,24 +124,26 @@ fn put_command(map: &mut Map<String, Value>, command: &str, document: &Document)
 }
 
 /// What every report begins with.
-fn head(command: &str, document: &Document, system: &DescriptorSystem) -> Map<String, Value> {
+fn head(command: &str, document: &Document) -> Map<String, Value> {
     let mut map = Map::new();
     put_command(&mut map, command, document);
-    let time = match system.time {
-        TimeDomain::Continuous => "continuous",
-        TimeDomain::Discrete => "discrete",
-    };
-    map.insert(
-        "system".to_owned(),
-        json!({
-            "time": time,
-            "states": system.n_states(),
-            "equations": system.n_equations(),
-            "known_inputs": system.n_inputs(),
-            "unknown_inputs": system.n_unknown_inputs(),
-            "outputs": system.n_outputs(),
-        }),
-    );
+    let discrete =
+        matches!(&document.plant, PlantData::Descriptor(data) if data.time == TimeDomain::Discrete);
+    let sizes = Sizes::of(&document.plant);
+    let mut system = json!({
+        "time": if discrete { "discrete" } else { "continuous" },
+        "states": sizes.states,
+        "equations": sizes.equations,
+        "known_inputs": sizes.inputs,
+        "unknown_inputs": sizes.unknown,
+        "outputs": sizes.outputs,
+    });
+    if let PlantData::Network(data) = &document.plant
+        && let Ok(network) = data.network()
+    {
+        system["network"] = network::sizes(&network);
+    }
+    map.insert("system".to_owned(), system);
     map.insert("method".to_owned(), json!(document.design.method.key()));
     map.insert("order".to_owned(), json!(document.design.order.key()));
     map

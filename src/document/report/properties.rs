@@ -13,7 +13,7 @@ use crate::system::properties::{
 };
 
 /// All properties, each an object with `id` and `name`; one that could not be decided has an `error`.
-pub(super) fn properties(system: &DescriptorSystem, tolerance: &Tolerance) -> Value {
+pub(super) fn properties(system: &DescriptorSystem, tolerance: &Tolerance) -> Vec<Value> {
     let n = system.n_states();
     let all = [
         entry("regular", "regular", regularity(system, tolerance).map(|found| of_regularity(&found))),
@@ -57,7 +57,7 @@ pub(super) fn properties(system: &DescriptorSystem, tolerance: &Tolerance) -> Va
         entry("R-observable", "R-observable", r_observability(system, tolerance).map(|found| of_modes(&found))),
         entry("R-detectable", "R-detectable", r_detectability(system, tolerance).map(|found| of_modes(&found))),
     ];
-    Value::Array(all.into())
+    all.into()
 }
 
 fn entry(id: &str, name: &str, found: Result<Value, PropertyError>) -> Value {
