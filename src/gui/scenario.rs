@@ -4,6 +4,7 @@ use egui::{CollapsingHeader, DragValue, Id, Response, Slider, Ui};
 
 use super::text_field::text_field;
 use super::{Output, Widgets, theme};
+use crate::document::limits::MAX_SIDE;
 use crate::document::{Document, EntryMatrix, Matrix, PlantData, ScenarioData};
 use crate::session::{Edit, Field, Session, SignalList};
 use crate::system::{Signal, TimeDomain};
@@ -60,8 +61,11 @@ impl Sizes {
                 outputs: data.matrix(Matrix::C).shape().0,
                 editable: true,
             },
-            PlantData::Network(_) => {
-                Self { discrete: false, states: 0, inputs: 0, unknown: 0, outputs: 0, editable: false }
+            // where the subsystems start stands with each of them
+            plant @ PlantData::Network(_) => {
+                let outputs = crate::document::Sizes::of(plant).outputs;
+                let outputs = if outputs > MAX_SIDE { 0 } else { outputs };
+                Self { discrete: false, states: 0, inputs: 0, unknown: 0, outputs, editable: false }
             }
         }
     }
@@ -135,11 +139,13 @@ fn levels(ui: &mut Ui, scenario: &ScenarioData, sizes: &Sizes, out: &mut Output)
             }
         });
     }
+    ui.spacing_mut().slider_width = 72.0;
+    if sizes.outputs > 0 {
+        group(ui, 175.0, |ui| noise(ui, scenario, out));
+    }
     if !sizes.editable {
         return;
     }
-    ui.spacing_mut().slider_width = 72.0;
-    group(ui, 175.0, |ui| noise(ui, scenario, sizes, out));
     group(ui, 220.0, |ui| uncertainty(ui, scenario, out));
 }
 
@@ -161,10 +167,7 @@ fn uncertainty(ui: &mut Ui, scenario: &ScenarioData, out: &mut Output) {
     }
 }
 
-fn noise(ui: &mut Ui, scenario: &ScenarioData, sizes: &Sizes, out: &mut Output) {
-    if sizes.outputs == 0 {
-        return;
-    }
+fn noise(ui: &mut Ui, scenario: &ScenarioData, out: &mut Output) {
     let level = noise_level(&scenario.noise);
     let mut wanted = level.unwrap_or(0.0);
     ui.label("noise");
