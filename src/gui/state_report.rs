@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 use serde::Serialize;
 
 use super::Window;
-use crate::document::{DescriptorData, Matrix, PlantData};
+use crate::document::{DescriptorData, Document, Matrix, PlantData};
 use crate::numerics::Complex64;
 use crate::observer::{Design, DesignError, LmiChoice, LmiResult, Verdict};
 use crate::session::{Analysis, Derived, Light, Task};
@@ -34,6 +34,7 @@ pub(super) struct Report {
     compared: bool,
     /// Subsystems of the partition.
     subsystems: usize,
+    network: Option<Network>,
     /// Components of the nonlinearity.
     nonlinear: usize,
     matrices: Matrices,
@@ -52,6 +53,22 @@ pub(super) struct Report {
     dark: Option<bool>,
     frames: u64,
     elapsed_ms: Option<f64>,
+}
+
+/// A network and its local observers; numbers of subsystems from one, as people see them.
+#[derive(Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Network {
+    subsystems: usize,
+    /// Entries of `Gamma` that are not zero.
+    couplings: usize,
+    /// Subsystems with local measurements.
+    local: Vec<usize>,
+    /// Those whose local observer is plugged in.
+    plugged: Vec<usize>,
+    local_poles: Vec<[f64; 2]>,
+    /// States of the global observer, when there is one.
+    global_order: Option<usize>,
 }
 
 /// The system's matrices, row by row.
@@ -147,6 +164,7 @@ pub(super) fn report(window: &Window) -> Report {
         compare: compare(derived),
         compared: derived.is_compared(session.revision()),
         subsystems: descriptor(&document.plant).map_or(0, |data| data.partition.len()),
+        network: network(document, design),
         nonlinear: descriptor(&document.plant)
             .and_then(|data| data.lipschitz.as_ref())
             .map_or(0, |lipschitz| lipschitz.f.len()),
@@ -182,6 +200,22 @@ fn descriptor(plant: &PlantData) -> Option<&DescriptorData> {
         PlantData::Descriptor(data) => Some(data),
         PlantData::Network(_) => None,
     }
+}
+
+fn network(document: &Document, design: Option<&Design>) -> Option<Network> {
+    let PlantData::Network(data) = &document.plant else { return None };
+    let choice = &document.design;
+    let plugged = |number: &&usize| data.is_plugged(number.saturating_sub(1), choice.plugged.as_deref());
+    Some(Network {
+        subsystems: data.n_subsystems(),
+        couplings: data.Gamma.entries().len(),
+        local: data.local.clone(),
+        plugged: data.local.iter().filter(plugged).copied().collect(),
+        local_poles: pairs(&choice.local_poles),
+        global_order: design
+            .and_then(|design| design.hierarchical.as_deref())
+            .map(|observer| observer.hierarchy.order()),
+    })
 }
 
 fn lmi(choice: &LmiChoice, analysis: Option<&Analysis>, design: Option<&Design>) -> Lmi {

@@ -40,11 +40,13 @@ pub(super) fn levels(ui: &mut Ui, scenario: &ScenarioData, sizes: &Sizes, out: &
             }
         });
     }
+    ui.spacing_mut().slider_width = 72.0;
+    if sizes.outputs > 0 {
+        group(ui, 175.0, |ui| noise(ui, scenario, out));
+    }
     if !sizes.editable {
         return;
     }
-    ui.spacing_mut().slider_width = 72.0;
-    group(ui, 175.0, |ui| noise(ui, scenario, sizes, out));
     group(ui, 220.0, |ui| uncertainty(ui, scenario, out));
 }
 
@@ -66,10 +68,7 @@ fn uncertainty(ui: &mut Ui, scenario: &ScenarioData, out: &mut Output) {
     }
 }
 
-fn noise(ui: &mut Ui, scenario: &ScenarioData, sizes: &Sizes, out: &mut Output) {
-    if sizes.outputs == 0 {
-        return;
-    }
+fn noise(ui: &mut Ui, scenario: &ScenarioData, out: &mut Output) {
     let level = noise_level(&scenario.noise);
     let mut wanted = level.unwrap_or(0.0);
     ui.label("noise");

@@ -8,6 +8,7 @@ mod uncertainty;
 use egui::{CollapsingHeader, Response, Ui};
 
 use super::{Output, Widgets, theme};
+use crate::document::limits::MAX_SIDE;
 use crate::document::{Document, Matrix, PlantData, ScenarioData};
 use crate::session::{Derived, Session, SignalList};
 use crate::system::TimeDomain;
@@ -63,15 +64,19 @@ impl Sizes {
                 outputs: data.matrix(Matrix::C).shape().0,
                 editable: true,
             },
-            PlantData::Network(_) => Self {
-                discrete: false,
-                states: 0,
-                equations: 0,
-                inputs: 0,
-                unknown: 0,
-                outputs: 0,
-                editable: false,
-            },
+            // where the subsystems start stands with each of them
+            plant @ PlantData::Network(_) => {
+                let outputs = crate::document::Sizes::of(plant).outputs;
+                Self {
+                    discrete: false,
+                    states: 0,
+                    equations: 0,
+                    inputs: 0,
+                    unknown: 0,
+                    outputs: if outputs > MAX_SIDE { 0 } else { outputs },
+                    editable: false,
+                }
+            }
         }
     }
 }
