@@ -348,6 +348,24 @@ fn examples_are_listed_and_written_out() {
 }
 
 #[test]
+fn misprints_are_listed_with_their_proofs() {
+    let ran = run(&["errata", "001"]);
+    assert_eq!((ran.code, ran.err.as_str()), (0, ""), "a list is an answer");
+    let report = ran.json();
+    let found = report["errata"].as_array().unwrap();
+    let misprint = found.iter().find(|e| e["concerns"] == "G").unwrap();
+    assert_eq!(misprint["printed"], "G = [5/3 4/3]");
+    assert!(misprint["proof"].as_str().unwrap().contains("16/3"), "{misprint}");
+    assert!(found.iter().all(|e| e["paper"] == "001"), "no other paper's");
+    let all = run(&["errata"]).json()["errata"].as_array().unwrap().len();
+    let each: usize = ["000", "001", "002", "003", "004"]
+        .iter()
+        .map(|paper| run(&["errata", paper]).json()["errata"].as_array().unwrap().len())
+        .sum();
+    assert_eq!(all, each, "all of them without a paper");
+}
+
+#[test]
 fn help_and_version_are_answers() {
     for arguments in [["help"], ["--help"], ["-h"]] {
         let ran = run(&arguments);
@@ -359,7 +377,7 @@ fn help_and_version_are_answers() {
 
 #[test]
 fn bad_input_is_said_on_standard_error_with_exit_code_two() {
-    let cases: [(&[&str], &str, &str); 9] = [
+    let cases: [(&[&str], &str, &str); 10] = [
         (&["check", "/nowhere/at/all.json"], "", "/nowhere/at/all.json cannot be read"),
         (&["check", "example:unseen"], "", "there is no example \"unseen\""),
         (&["check", "-"], "{", "standard input: the text is not JSON"),
@@ -371,6 +389,7 @@ fn bad_input_is_said_on_standard_error_with_exit_code_two() {
         (&["desing", "-"], "", "did you mean `design`?"),
         (&["simulate", EXAMPLE, "--format", "xml"], "", "csv or json"),
         (&["figures", EXAMPLE], "", "--out DIR"),
+        (&["errata", "005"], "", "there is no paper \"005\": the keys are 000, 001, 002, 003, 004"),
         (&["examples", "nothing"], "", "there is no example \"nothing\""),
         (&["figures", EXAMPLE, "--only", "fig6", "--out", "/dev/null/x"], "", "cannot be made"),
     ];

@@ -2,6 +2,13 @@
 #![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail by panicking")]
 #![expect(non_snake_case, reason = "matrix letters of the paper")]
 
+// the same tests run in a browser
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+#[cfg(target_arch = "wasm32")]
+wasm_bindgen_test::wasm_bindgen_test_configure!(run_in_browser);
+
 use descry::numerics::{
     Complex64, RankDecision, Tolerance, complex_svd, eigenvalues, pseudo_inverse, rank_drop_points,
     side_by_side, spectral_distance, stack,
@@ -16,6 +23,10 @@ use descry::system::{DescriptorSystem, LipschitzTerm, Model, TimeDomain};
 use nalgebra::{DMatrix, DVector, dmatrix};
 use serde_json::Value;
 
+#[path = "paper_001/elsewhere.rs"]
+mod elsewhere;
+#[path = "paper_001/figures.rs"]
+mod figures;
 #[path = "paper_001/random.rs"]
 mod random;
 #[path = "paper_001/simulation.rs"]
@@ -474,7 +485,7 @@ fn the_second_condition_fails_without_an_output_and_names_sensors() {
     let second = found(&conditions, "(A2)");
     assert_eq!(second.verdict, Verdict::Fails, "three unknowns, two equations: {}", second.summary);
     assert!(
-        second.remedies[0].contains("at least 2 outputs are needed, there are 1"),
+        second.remedies[0].contains("at least 2 outputs are needed, there is 1"),
         "{:?}",
         second.remedies
     );

@@ -112,7 +112,7 @@ fn line(fields: impl Iterator<Item = String>) -> String {
 }
 
 /// A field in quotes where it holds a comma, a quote or a line end (RFC 4180).
-fn quoted(text: &str) -> String {
+pub(super) fn quoted(text: &str) -> String {
     if text.contains(['"', ',', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
     } else {

@@ -152,10 +152,22 @@ fn read_series(
     let object = cursor.object(&["show", "run", "name"])?;
     let show = object.need("show", "what is shown is needed, for example \"x1_hat\"")?;
     let (quantity, index) = Quantity::parse(show.text()?).ok_or_else(|| {
-        show.error("one of x1, x1_hat, e1, d1, d1_hat, ed1, u1, y1 (with any number) is needed here")
+        show.error(
+            "one of x1, x1_hat, e1, d1, d1_hat, ed1, u1, y1, of a network also z1, z1_hat, ez1 (with any number) is needed \
+             here",
+        )
     })?;
     let limit = match quantity {
-        Quantity::State | Quantity::Estimate | Quantity::Error => sizes.states,
+        Quantity::Whole | Quantity::WholeEstimate | Quantity::WholeError if sizes.subsystems == 0 => {
+            return Err(show.error("z is the state of a network as a whole; this system is no network"));
+        }
+        // how many components the whole has follows from ranks, so that the figure judges their numbers
+        Quantity::State
+        | Quantity::Estimate
+        | Quantity::Error
+        | Quantity::Whole
+        | Quantity::WholeEstimate
+        | Quantity::WholeError => sizes.states,
         Quantity::UnknownInput | Quantity::UnknownInputEstimate | Quantity::UnknownInputError => {
             sizes.unknown
         }

@@ -9,7 +9,7 @@ pub const MAX_SIDE: usize = 100;
 /// Subsystems of a network or partition.
 pub const MAX_SUBSYSTEMS: usize = 2_000;
 /// States of a network that is expanded to one descriptor system.
-pub const MAX_EXPANDED: usize = 300;
+pub const MAX_EXPANDED: usize = crate::observer::hierarchical::LARGEST_COMPOSITE;
 /// Entries of a sparse matrix.
 pub const MAX_SPARSE_ENTRIES: usize = 100_000;
 /// Poles in a list.

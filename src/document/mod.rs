@@ -1,7 +1,9 @@
 //! L3: the versioned file format, links, pasted matrices, exports.
 
+pub mod comparison;
 mod coupling;
 mod cursor;
+mod draw;
 mod duplicates;
 mod entry;
 mod error;
@@ -11,6 +13,7 @@ mod figures;
 mod import;
 mod import_cells;
 mod import_latex;
+mod initial;
 mod json;
 pub mod limits;
 mod link;
@@ -18,6 +21,7 @@ mod lmi;
 mod matrix_text;
 mod model;
 mod network;
+mod network_matrix;
 mod pretty;
 mod read;
 pub mod report;
@@ -28,14 +32,15 @@ pub use error::DocumentError;
 pub use export_csv::{figure_to_csv, trajectory_to_csv};
 pub use export_svg::figure_to_svg;
 pub use import::{ImportError, PastedMatrix, matrix_from_text};
+pub use initial::InitialFormula;
 pub use json::to_json;
 pub use link::{LinkError, from_link_fragment, is_link_fragment, to_link_fragment};
 pub use matrix_text::{MatrixSyntax, matrix_to_text};
 pub use model::{
-    Coupling, DescriptorData, Document, FreeData, KeptDesign, LipschitzData, Matrix, NetworkData, PlantData,
-    ScenarioData, Subject, UncertaintyData,
+    CHOSEN, Coupling, DescriptorData, Document, FreeData, KeptDesign, LipschitzData, Matrix, NetworkData,
+    PlantData, ScenarioData, Subject, UncertaintyData,
 };
-pub use network::NetworkMatrix;
+pub use network_matrix::NetworkMatrix;
 pub use read::{Sizes, read_document};
 pub use write::{write_document, write_document_compact};
 

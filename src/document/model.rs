@@ -4,10 +4,12 @@
 use std::collections::BTreeMap;
 
 use super::entry::{Entry, EntryMatrix};
+use super::initial::InitialFormula;
 use super::limits::MAX_EXPANDED;
 use crate::numerics::Tolerance;
 use crate::observer::DesignChoice;
 use crate::paper::FigureRecipe;
+use crate::simulation::comparison::Contender;
 use crate::simulation::{FreeVariables, Scenario};
 use crate::system::{
     CouplingMatrix, DescriptorSystem, LipschitzTerm, Model, Network, Signal, Subsystem, SystemError,
@@ -36,6 +38,9 @@ pub struct Document {
     /// Figures that can be drawn from it.
     pub figures: Vec<FigureRecipe>,
 }
+
+/// The chosen design's name in a comparison.
+pub const CHOSEN: &str = "chosen";
 
 /// A design that is kept beside the chosen one.
 #[derive(Clone, Debug, PartialEq)]
@@ -212,8 +217,10 @@ pub struct ScenarioData {
     pub horizon: f64,
     /// Output samples.
     pub samples: usize,
-    /// Initial state; the algebraic part is projected.
+    /// Initial state, an entry for each state or none; the algebraic part is projected.
     pub x0: Vec<Entry>,
+    /// Initial state as one expression, which counts while there are no entries.
+    pub x0_formula: Option<InitialFormula>,
     /// Known inputs.
     pub u: Vec<Signal>,
     /// Unknown inputs.
@@ -373,11 +380,17 @@ impl Document {
         Ok(Model { lipschitz, partition: data.partition.clone(), ..Model::from(system) })
     }
 
+    /// The chosen design and those that are kept beside it, for a comparison.
+    pub fn contenders(&self) -> Vec<Contender<'_>> {
+        let chosen = Contender { name: CHOSEN, choice: &self.design };
+        let kept = self.kept.iter().map(|kept| Contender { name: &kept.name, choice: &kept.design });
+        std::iter::once(chosen).chain(kept).collect()
+    }
+
     /// The scenario with missing signals and initial states filled by zeros.
     pub fn scenario(&self, system: &DescriptorSystem) -> Scenario {
-        let ScenarioData { horizon, samples, x0, u, d, noise, uncertainty, free } = &self.scenario;
-        let mut x0: Vec<f64> = x0.iter().map(|entry| entry.value).collect();
-        x0.resize(system.n_states(), 0.0);
+        let ScenarioData { horizon, samples, u, d, noise, uncertainty, free, .. } = &self.scenario;
+        let x0 = self.scenario.initial_values(system.n_states());
         let uncertainty = uncertainty.as_ref().map(|data| crate::simulation::Uncertainty {
             amplitude: data.amplitude.values(),
             frequency: data.frequency.values(),

@@ -1,105 +1,78 @@
-//! The matrices of a network by name.
+//! Networks in documents: reading and writing.
 
-use super::entry::Entry;
-use super::model::NetworkData;
+use serde_json::{Value, json};
 
-/// The matrices of a network.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum NetworkMatrix {
-    /// State matrix `a` of a subsystem.
-    State,
-    /// Coupling input `b`.
-    Input,
-    /// Coupling output `c`.
-    Output,
-    /// Globally measured part `c_G`.
-    GlobalOutput,
-    /// Locally measured part `c_L`.
-    LocalOutput,
-    /// Coupling `Gamma` between subsystems.
-    Gamma,
-    /// Globally measured combinations `Psi`.
-    Psi,
+use super::DocumentError;
+use super::cursor::Cursor;
+use super::entry::{EntryMatrix, number};
+use super::limits::{MAX_SPARSE_ENTRIES, MAX_SUBSYSTEMS};
+use super::model::{Coupling, NetworkData};
+use super::read::at_matrix;
+
+pub(super) fn read_network(cursor: &Cursor<'_>) -> Result<NetworkData, DocumentError> {
+    let object = cursor.object(&["a", "b", "c", "c_G", "c_L", "Gamma", "Psi", "local"])?;
+    let dense = |key| EntryMatrix::read(&object.need(key, "this matrix of the network is needed")?);
+    let coupling = |key| read_coupling(&object.need(key, "this matrix of the network is needed")?);
+    let mut data = NetworkData {
+        a: dense("a")?,
+        b: dense("b")?,
+        c: dense("c")?,
+        c_G: dense("c_G")?,
+        c_L: dense("c_L")?,
+        Gamma: coupling("Gamma")?,
+        Psi: coupling("Psi")?,
+        local: Vec::new(),
+    };
+    let big = data.Gamma.shape().0;
+    if let Some(local) = object.get("local") {
+        for item in local.list(MAX_SUBSYSTEMS, "subsystem numbers")? {
+            data.local.push(usize::try_from(item.whole_in(1, big as u64)?).unwrap_or(usize::MAX));
+        }
+    }
+    data.network().map_err(|error| at_matrix(cursor.path(), &error))?;
+    Ok(data)
 }
 
-impl NetworkMatrix {
-    /// All, in the order of reading.
-    pub const ALL: [Self; 7] = [
-        Self::State,
-        Self::Input,
-        Self::Output,
-        Self::GlobalOutput,
-        Self::LocalOutput,
-        Self::Gamma,
-        Self::Psi,
-    ];
-
-    /// The letter, as in documents.
-    pub fn letter(self) -> &'static str {
-        match self {
-            Self::State => "a",
-            Self::Input => "b",
-            Self::Output => "c",
-            Self::GlobalOutput => "c_G",
-            Self::LocalOutput => "c_L",
-            Self::Gamma => "Gamma",
-            Self::Psi => "Psi",
-        }
+fn read_coupling(cursor: &Cursor<'_>) -> Result<Coupling, DocumentError> {
+    if cursor.is_list() {
+        return EntryMatrix::read(cursor).map(Coupling::Dense);
     }
-
-    /// What it is, in words.
-    pub fn meaning(self) -> &'static str {
-        match self {
-            Self::State => "one subsystem",
-            Self::Input => "what the coupling does to a subsystem",
-            Self::Output => "what a subsystem shows the others",
-            Self::GlobalOutput => "what is measured globally of a subsystem",
-            Self::LocalOutput => "what a local sensor measures of its subsystem",
-            Self::Gamma => "who listens to whom: row i holds what subsystem i receives",
-            Self::Psi => "the combinations of subsystems that are measured globally",
-        }
+    let object = cursor.object(&["rows", "columns", "entries"])?;
+    let side = |key| -> Result<u64, DocumentError> {
+        object.need(key, "rows, columns and entries are needed")?.whole_in(1, MAX_SUBSYSTEMS as u64)
+    };
+    let (rows, columns) = (side("rows")?, side("columns")?);
+    let list = object.need("entries", "a list of [row, column, value] is needed")?;
+    let mut entries = Vec::new();
+    for item in list.list(MAX_SPARSE_ENTRIES, "entries")? {
+        let parts = item.list(3, "numbers")?;
+        let [row, column, value] = parts.as_slice() else {
+            return Err(item.error("three numbers are needed: [row, column, value]"));
+        };
+        let index = |cursor: &Cursor<'_>, limit| {
+            cursor.whole_in(1, limit).map(|i| usize::try_from(i).unwrap_or(usize::MAX))
+        };
+        entries.push((index(row, rows)?, index(column, columns)?, value.number()?));
     }
+    let size = |n| usize::try_from(n).unwrap_or(usize::MAX);
+    Ok(Coupling::Sparse { rows: size(rows), columns: size(columns), entries })
 }
 
-impl NetworkData {
-    /// Rows and columns of a matrix.
-    pub fn shape(&self, matrix: NetworkMatrix) -> (usize, usize) {
-        match matrix {
-            NetworkMatrix::State => self.a.shape(),
-            NetworkMatrix::Input => self.b.shape(),
-            NetworkMatrix::Output => self.c.shape(),
-            NetworkMatrix::GlobalOutput => self.c_G.shape(),
-            NetworkMatrix::LocalOutput => self.c_L.shape(),
-            NetworkMatrix::Gamma => self.Gamma.shape(),
-            NetworkMatrix::Psi => self.Psi.shape(),
+pub(super) fn network_value(data: &NetworkData) -> Value {
+    json!({
+        "a": data.a.write(), "b": data.b.write(), "c": data.c.write(),
+        "c_G": data.c_G.write(), "c_L": data.c_L.write(),
+        "Gamma": coupling_value(&data.Gamma), "Psi": coupling_value(&data.Psi), "local": data.local,
+    })
+}
+
+fn coupling_value(coupling: &Coupling) -> Value {
+    match coupling {
+        Coupling::Dense(matrix) => matrix.write(),
+        Coupling::Sparse { rows, columns, entries } => {
+            let entries: Vec<Value> =
+                entries.iter().map(|(i, j, value)| json!([i, j, number(*value)])).collect();
+            json!({ "rows": rows, "columns": columns, "entries": entries })
         }
-    }
-
-    /// An entry of a matrix, from zero; `None` outside.
-    pub fn entry(&self, matrix: NetworkMatrix, i: usize, j: usize) -> Option<Entry> {
-        match matrix {
-            NetworkMatrix::State => self.a.entry(i, j).cloned(),
-            NetworkMatrix::Input => self.b.entry(i, j).cloned(),
-            NetworkMatrix::Output => self.c.entry(i, j).cloned(),
-            NetworkMatrix::GlobalOutput => self.c_G.entry(i, j).cloned(),
-            NetworkMatrix::LocalOutput => self.c_L.entry(i, j).cloned(),
-            NetworkMatrix::Gamma => self.Gamma.entry(i, j),
-            NetworkMatrix::Psi => self.Psi.entry(i, j),
-        }
-    }
-
-    /// Number of subsystems N.
-    pub fn n_subsystems(&self) -> usize {
-        self.Gamma.shape().0
-    }
-
-    /// Whether a subsystem, from zero, has local measurements.
-    pub fn has_local_outputs(&self, subsystem: usize) -> bool {
-        self.local.contains(&(subsystem + 1))
-    }
-
-    /// Whether a subsystem, from zero, has a local observer that is plugged in, of those that a choice names.
-    pub fn is_plugged(&self, subsystem: usize, plugged: Option<&[usize]>) -> bool {
-        self.has_local_outputs(subsystem) && plugged.is_none_or(|list| list.contains(&subsystem))
     }
 }

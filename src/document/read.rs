@@ -2,15 +2,14 @@
 #![expect(non_snake_case, reason = "keys are matrix letters")]
 
 use super::cursor::{Cursor, Object, parse};
-use super::entry::{Entry, EntryMatrix};
-use super::limits::{
-    MAX_HORIZON, MAX_KEPT, MAX_POLES, MAX_SAMPLES, MAX_SIDE, MAX_SPARSE_ENTRIES, MAX_SUBSYSTEMS,
-};
+use super::entry::EntryMatrix;
+use super::initial::read_initial;
+use super::limits::{MAX_HORIZON, MAX_KEPT, MAX_POLES, MAX_SAMPLES, MAX_SIDE, MAX_SUBSYSTEMS};
 use super::lmi::read_lmi;
 use super::model::{
-    Coupling, DescriptorData, Document, FreeData, KeptDesign, LipschitzData, NetworkData, PlantData,
-    ScenarioData, UncertaintyData,
+    DescriptorData, Document, FreeData, KeptDesign, LipschitzData, PlantData, ScenarioData, UncertaintyData,
 };
+use super::network::read_network;
 use super::{DocumentError, VERSION, read_figures};
 use crate::numerics::{Complex64, Tolerance};
 use crate::observer::{DesignChoice, Method, Order};
@@ -71,6 +70,7 @@ impl ScenarioData {
             horizon: 10.0,
             samples: 501,
             x0: Vec::new(),
+            x0_formula: None,
             u: Vec::new(),
             d: Vec::new(),
             noise: Vec::new(),
@@ -158,7 +158,7 @@ fn descriptor(object: &Object<'_>) -> Result<DescriptorData, DocumentError> {
 }
 
 /// A system error as an error at the matrix's place.
-fn at_matrix(place: &str, error: &SystemError) -> DocumentError {
+pub(super) fn at_matrix(place: &str, error: &SystemError) -> DocumentError {
     match error {
         SystemError::Shape { matrix, found, needed, reason } => DocumentError::at(
             &format!("{place}.{matrix}"),
@@ -232,55 +232,6 @@ fn lipschitz(cursor: &Cursor<'_>, system: &DescriptorSystem) -> Result<Lipschitz
     }
     let constant = object.need("constant", "the Lipschitz constant is needed")?.number_in(0.0, 1e6)?;
     Ok(LipschitzData { G, F_L, f, constant })
-}
-
-fn read_network(cursor: &Cursor<'_>) -> Result<NetworkData, DocumentError> {
-    let object = cursor.object(&["a", "b", "c", "c_G", "c_L", "Gamma", "Psi", "local"])?;
-    let dense = |key| EntryMatrix::read(&object.need(key, "this matrix of the network is needed")?);
-    let coupling = |key| read_coupling(&object.need(key, "this matrix of the network is needed")?);
-    let mut data = NetworkData {
-        a: dense("a")?,
-        b: dense("b")?,
-        c: dense("c")?,
-        c_G: dense("c_G")?,
-        c_L: dense("c_L")?,
-        Gamma: coupling("Gamma")?,
-        Psi: coupling("Psi")?,
-        local: Vec::new(),
-    };
-    let big = data.Gamma.shape().0;
-    if let Some(local) = object.get("local") {
-        for item in local.list(MAX_SUBSYSTEMS, "subsystem numbers")? {
-            data.local.push(usize::try_from(item.whole_in(1, big as u64)?).unwrap_or(usize::MAX));
-        }
-    }
-    data.network().map_err(|error| at_matrix(cursor.path(), &error))?;
-    Ok(data)
-}
-
-fn read_coupling(cursor: &Cursor<'_>) -> Result<Coupling, DocumentError> {
-    if cursor.is_list() {
-        return EntryMatrix::read(cursor).map(Coupling::Dense);
-    }
-    let object = cursor.object(&["rows", "columns", "entries"])?;
-    let side = |key| -> Result<u64, DocumentError> {
-        object.need(key, "rows, columns and entries are needed")?.whole_in(1, MAX_SUBSYSTEMS as u64)
-    };
-    let (rows, columns) = (side("rows")?, side("columns")?);
-    let list = object.need("entries", "a list of [row, column, value] is needed")?;
-    let mut entries = Vec::new();
-    for item in list.list(MAX_SPARSE_ENTRIES, "entries")? {
-        let parts = item.list(3, "numbers")?;
-        let [row, column, value] = parts.as_slice() else {
-            return Err(item.error("three numbers are needed: [row, column, value]"));
-        };
-        let index = |cursor: &Cursor<'_>, limit| {
-            cursor.whole_in(1, limit).map(|i| usize::try_from(i).unwrap_or(usize::MAX))
-        };
-        entries.push((index(row, rows)?, index(column, columns)?, value.number()?));
-    }
-    let size = |n| usize::try_from(n).unwrap_or(usize::MAX);
-    Ok(Coupling::Sparse { rows: size(rows), columns: size(columns), entries })
 }
 
 /// Words of the design methods.
@@ -358,11 +309,14 @@ fn scenario(cursor: &Cursor<'_>, sizes: &Sizes) -> Result<ScenarioData, Document
     let empty = ScenarioData::empty();
     let horizon = object.get("horizon").map_or(Ok(empty.horizon), |c| c.number_in(1e-6, MAX_HORIZON))?;
     let samples = object.get("samples").map_or(Ok(empty.samples as u64), |c| c.whole_in(2, MAX_SAMPLES))?;
+    let (x0, x0_formula) =
+        object.get("x0").map_or(Ok((Vec::new(), None)), |c| read_initial(&c, sizes.states))?;
     let signals = |key, count, of| object.get(key).map_or(Ok(Vec::new()), |c| read_signals(&c, count, of));
     Ok(ScenarioData {
         horizon,
         samples: usize::try_from(samples).unwrap_or(usize::MAX),
-        x0: object.get("x0").map_or(Ok(Vec::new()), |c| initial_state(&c, sizes.states))?,
+        x0,
+        x0_formula,
         u: signals("u", sizes.inputs, "known inputs (columns of B)")?,
         d: signals("d", sizes.unknown, "unknown inputs (columns of D)")?,
         noise: signals("noise", sizes.outputs, "outputs (rows of C)")?,
@@ -389,14 +343,6 @@ pub(super) fn read_free(cursor: &Cursor<'_>, sizes: &Sizes) -> Result<FreeData, 
         ));
     }
     Ok(FreeData { signals: list, feedback: feedback.map(|(_, matrix)| matrix) })
-}
-
-fn initial_state(cursor: &Cursor<'_>, n: usize) -> Result<Vec<Entry>, DocumentError> {
-    let items = cursor.list(MAX_SIDE.max(n), "numbers")?;
-    if items.len() != n {
-        return Err(cursor.error(format!("one number for each of the {n} states is needed")));
-    }
-    items.iter().map(Entry::read).collect()
 }
 
 /// A list of signals; a plain number is a constant signal. Empty, or one for each.

@@ -6,9 +6,9 @@ use super::entry::number;
 use super::figures::figure_value;
 use super::lmi::lmi_value;
 use super::model::{
-    Coupling, DescriptorData, Document, FreeData, KeptDesign, LipschitzData, Matrix, NetworkData, PlantData,
-    ScenarioData,
+    DescriptorData, Document, FreeData, KeptDesign, LipschitzData, Matrix, PlantData, ScenarioData,
 };
+use super::network::network_value;
 use super::pretty::pretty;
 use super::{EntryMatrix, VERSION};
 use crate::numerics::{Complex64, Tolerance};
@@ -89,25 +89,6 @@ fn lipschitz_value(data: &LipschitzData) -> Value {
     json!({ "G": data.G.write(), "F_L": data.F_L.write(), "f": data.f, "constant": number(data.constant) })
 }
 
-fn network_value(data: &NetworkData) -> Value {
-    json!({
-        "a": data.a.write(), "b": data.b.write(), "c": data.c.write(),
-        "c_G": data.c_G.write(), "c_L": data.c_L.write(),
-        "Gamma": coupling_value(&data.Gamma), "Psi": coupling_value(&data.Psi), "local": data.local,
-    })
-}
-
-fn coupling_value(coupling: &Coupling) -> Value {
-    match coupling {
-        Coupling::Dense(matrix) => matrix.write(),
-        Coupling::Sparse { rows, columns, entries } => {
-            let entries: Vec<Value> =
-                entries.iter().map(|(i, j, value)| json!([i, j, number(*value)])).collect();
-            json!({ "rows": rows, "columns": columns, "entries": entries })
-        }
-    }
-}
-
 fn design_value(design: &DesignChoice) -> Value {
     let DesignChoice { method, order, poles, scale, seed, local_poles, plugged, lmi } = design;
     let mut value = json!({
@@ -142,13 +123,15 @@ pub(super) fn signals_value(signals: &[Signal]) -> Value {
 }
 
 fn scenario_value(data: &ScenarioData) -> Value {
-    let ScenarioData { horizon, samples, x0, u, d, noise, uncertainty, free } = data;
+    let ScenarioData { horizon, samples, x0, x0_formula, u, d, noise, uncertainty, free } = data;
     let mut map = Map::new();
     map.insert("horizon".to_owned(), number(*horizon));
     map.insert("samples".to_owned(), json!(samples));
     if !x0.is_empty() {
         let row = EntryMatrix::from_entries(1, x0.len(), x0.clone()).write();
         map.insert("x0".to_owned(), row[0].clone());
+    } else if let Some(formula) = x0_formula {
+        map.insert("x0".to_owned(), json!(formula.text()));
     }
     for (key, signals) in [("u", u), ("d", d), ("noise", noise)] {
         if !signals.is_empty() {

@@ -10,27 +10,28 @@ pub(super) struct Curve<'a> {
     points: &'a [[f64; 2]],
     role: Role,
     colour: Color32,
-    logarithmic: bool,
+    logarithmic: [bool; 2],
     /// Points at least this far apart on the screen are marked.
     marked: f64,
     base: PlotItemBase,
 }
 
 impl<'a> Curve<'a> {
-    /// A curve; on a logarithmic axis the horizontal coordinate of the plot is `log10` of the points' own.
-    pub(super) fn new(series: &'a Series, colour: Color32, x: &Axis) -> Self {
+    /// A curve; on a logarithmic axis the coordinate of the plot is `log10` of the points' own.
+    pub(super) fn new(series: &'a Series, colour: Color32, [x, y]: [&Axis; 2]) -> Self {
         Self {
             points: &series.points,
             role: series.role,
             colour,
-            logarithmic: x.logarithmic,
+            logarithmic: [x.logarithmic, y.logarithmic],
             marked: if is_discrete(x) { 3.5 } else { 12.0 },
             base: PlotItemBase::new(series.name.clone()),
         }
     }
 
     fn place(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
-        let x = if self.logarithmic { x.log10() } else { x };
+        let [x, y] = [(x, self.logarithmic[0]), (y, self.logarithmic[1])]
+            .map(|(value, logarithmic)| if logarithmic { value.log10() } else { value });
         (x.is_finite() && y.is_finite()).then_some([x, y])
     }
 

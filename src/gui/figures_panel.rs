@@ -4,7 +4,7 @@ use egui::{RichText, ScrollArea, Ui, vec2};
 
 use super::plot::{Place, figure_ui, notes_ui, panel_ui, panels_ui, short};
 use super::pole_plane::{Poles, pole_plane_ui};
-use super::{Output, Widgets, scenario, theme};
+use super::{Output, Widgets, compare, scenario, theme};
 use crate::document::{figure_to_csv, figure_to_svg};
 use crate::numerics::Complex64;
 use crate::observer::show as show_pole;
@@ -21,11 +21,19 @@ pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Wid
     if let Some(figure) = shown_figure(session, derived) {
         exports(ui, session, figure, out);
     }
-    scenario::show(ui, session, widgets, out);
+    scenario::show(ui, session, derived, widgets, out);
     ui.separator();
     let tab = session.view().tab;
     if tab == Tab::Figures {
         paper_figures(ui, session, derived, out);
+        return;
+    }
+    if tab == Tab::TradeOff {
+        trade_off(ui, derived);
+        return;
+    }
+    if tab == Tab::Compare {
+        compare::show(ui, session, derived, widgets, out);
         return;
     }
     let Some(analysis) = derived.analysis() else {
@@ -41,7 +49,16 @@ pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Wid
         }
         Tab::Poles => poles(ui, session, derived, out),
         Tab::Bode => bode(ui, analysis),
-        Tab::Figures => {}
+        Tab::TradeOff | Tab::Compare | Tab::Figures => {}
+    }
+}
+
+/// Designs along a sweep; the last picture stays until the next has arrived.
+fn trade_off(ui: &mut Ui, derived: &Derived) {
+    match derived.trade_off() {
+        Some(Ok(figure)) => figure_ui(ui, figure, "trade-off"),
+        Some(Err(why)) => nothing(ui, "Nothing to sweep", why),
+        None => waiting(ui, derived, "designing along the sweep"),
     }
 }
 
@@ -75,6 +92,8 @@ fn shown_figure<'a>(session: &Session, derived: &'a Derived) -> Option<&'a Figur
         Tab::Errors => simulation.map(|simulation| &simulation.errors),
         Tab::UnknownInput => simulation.map(|simulation| &simulation.unknown_input),
         Tab::Bode => analysis?.bode.as_ref(),
+        Tab::TradeOff => derived.trade_off()?.as_ref().ok(),
+        Tab::Compare => compare::figure(session, derived),
         Tab::Figures => {
             let id = session.view().figure.as_deref()?;
             derived.figure(id)?.as_ref().ok()
@@ -128,8 +147,13 @@ fn simulated(ui: &mut Ui, analysis: &Analysis, view: impl FnOnce(&mut Ui, &Simul
 }
 
 fn no_simulation(ui: &mut Ui, why: &str) {
+    nothing(ui, "Nothing to simulate", why);
+}
+
+/// What there is not, and why.
+fn nothing(ui: &mut Ui, what: &str, why: &str) {
     ui.add_space(theme::BLOCK_GAP);
-    ui.colored_label(theme::near(ui), RichText::new("Nothing to simulate").strong());
+    ui.colored_label(theme::near(ui), RichText::new(what).strong());
     // reasons begin in lower case, since they also stand behind a colon
     let mut letters = why.chars();
     let first = letters.next().map(char::to_uppercase).into_iter().flatten();
@@ -141,7 +165,11 @@ fn rms_line(ui: &mut Ui, simulation: &Simulation) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 10.0;
         ui.colored_label(theme::faint(ui), "rms error over the second half:");
-        let states = simulation.rms.iter().enumerate().map(|(k, rms)| (format!("x{}", k + 1), k, rms));
+        if let Some(rms) = simulation.rms_whole {
+            ui.label(format!("z {}", short(rms)));
+        }
+        let states = simulation.estimated.iter().zip(&simulation.rms);
+        let states = states.map(|(&k, rms)| (format!("x{}", k + 1), k, rms));
         let unknown =
             simulation.rms_unknown.iter().enumerate().map(|(k, rms)| (format!("d{}", k + 1), 7 + k, rms));
         for (name, colour, rms) in states.chain(unknown) {

@@ -3,6 +3,7 @@
 pub mod accessibility;
 mod app;
 mod blocks;
+mod compare;
 mod curve;
 mod demand;
 mod entry_grid;

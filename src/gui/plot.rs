@@ -156,12 +156,15 @@ fn plot(ui: &mut Ui, panel: &Panel, place: &Place<'_>, (height, hidden): (f32, u
         .show_y(false)
         .set_margin_fraction(vec2(0.0, 0.07))
         .custom_x_axes(vec![x_axis(ui, panel, place)])
-        .custom_y_axes(vec![y_axis(ui, panel)])
+        .custom_y_axes(vec![y_axis(ui, panel, f64::from(height))])
         .y_grid_spacer(|input| lines(&input, 30.0))
         .grid_color(theme::faint(ui).gamma_multiply(0.35))
         .grid_fade(0.0)
         .link_axis(group, [true, false])
         .link_cursor(group, [true, false]);
+    if panel.y.logarithmic {
+        plot = plot.y_grid_spacer(decades);
+    }
     plot = if logarithmic {
         plot.x_grid_spacer(decades)
     } else {
@@ -178,9 +181,9 @@ fn plot(ui: &mut Ui, panel: &Panel, place: &Place<'_>, (height, hidden): (f32, u
         .iter()
         .enumerate()
         .filter(|(k, _)| !is_hidden(hidden, *k))
-        .map(|(_, series)| Curve::new(series, theme::series(ui, series.colour), &panel.x))
+        .map(|(_, series)| Curve::new(series, theme::series(ui, series.colour), [&panel.x, &panel.y]))
         .collect();
-    if let Some([low, high]) = panel.y.range {
+    if let Some([low, high]) = panel.y.range.filter(|_| !panel.y.logarithmic) {
         plot = plot.default_y_bounds(low, high);
     } else if let Some([low, high]) = widened(&curves) {
         plot = plot.include_y(low).include_y(high);
@@ -204,8 +207,11 @@ fn x_axis<'a>(ui: &Ui, panel: &Panel, place: &Place<'_>) -> AxisHints<'a> {
     })
 }
 
-fn y_axis<'a>(ui: &Ui, panel: &Panel) -> AxisHints<'a> {
-    axis(ui, AxisHints::new_y(), &panel.y.label).min_thickness(38.0).formatter(|mark, _| tick(mark.value))
+fn y_axis<'a>(ui: &Ui, panel: &Panel, height: f64) -> AxisHints<'a> {
+    let logarithmic = panel.y.logarithmic;
+    axis(ui, AxisHints::new_y(), &panel.y.label).min_thickness(38.0).formatter(move |mark, range| {
+        if logarithmic { decade(mark.value, range.end() - range.start(), height) } else { tick(mark.value) }
+    })
 }
 
 fn axis<'a>(ui: &Ui, hints: AxisHints<'a>, label: &str) -> AxisHints<'a> {
@@ -394,7 +400,7 @@ mod tests {
     #[test]
     fn a_constant_gets_room() {
         let series = Series { points: vec![[0.0, 5.0], [1.0, 5.0 + 1e-13]], ..Series::default() };
-        let curve = [Curve::new(&series, egui::Color32::BLACK, &crate::paper::Axis::default())];
+        let curve = [Curve::new(&series, egui::Color32::BLACK, [&crate::paper::Axis::default(); 2])];
         let [low, high] = widened(&curve).expect("widened");
         assert!(low < 4.6 && high > 5.4, "a tenth on either side: {low} {high}");
     }

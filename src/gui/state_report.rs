@@ -7,7 +7,8 @@ use super::Window;
 use crate::document::{DescriptorData, Document, Matrix, PlantData};
 use crate::numerics::Complex64;
 use crate::observer::{Design, DesignError, LmiChoice, LmiResult, Verdict};
-use crate::session::{Analysis, Light, Task};
+use crate::session::{Analysis, Derived, Light, Task};
+use crate::simulation::comparison::ComparisonRow;
 
 /// What a test of the page can know without looking at pixels.
 #[derive(Debug, Serialize)]
@@ -25,6 +26,12 @@ pub(super) struct Report {
     order: &'static str,
     method: &'static str,
     lmi: Lmi,
+    /// Names of the kept designs.
+    kept: Vec<String>,
+    /// Rows of the newest comparison.
+    compare: Vec<Compared>,
+    /// Whether the comparison belongs to this revision.
+    compared: bool,
     /// Subsystems of the partition.
     subsystems: usize,
     network: Option<Network>,
@@ -105,6 +112,17 @@ struct LmiOutcome {
     iterations: u32,
 }
 
+/// A design of the comparison.
+#[derive(Debug, Serialize)]
+struct Compared {
+    name: String,
+    method: &'static str,
+    /// Number of its own states, when it exists.
+    order: Option<usize>,
+    verified: bool,
+    error: Option<String>,
+}
+
 #[derive(Debug, Serialize)]
 struct Condition {
     id: String,
@@ -133,6 +151,7 @@ pub(super) fn report(window: &Window) -> Report {
         current: derived.is_current(session.revision()),
         running: derived.running().map(|(task, ..)| match task {
             Task::Analyse => "analysis".to_owned(),
+            Task::Compare => "comparison".to_owned(),
             Task::Figure { id } => format!("figure {id}"),
         }),
         failure: derived.failure().map(str::to_owned),
@@ -141,6 +160,9 @@ pub(super) fn report(window: &Window) -> Report {
         order: document.design.order.key(),
         method: document.design.method.key(),
         lmi: lmi(&document.design.lmi, analysis, design),
+        kept: document.kept.iter().map(|kept| kept.name.clone()).collect(),
+        compare: compare(derived),
+        compared: derived.is_compared(session.revision()),
         subsystems: descriptor(&document.plant).map_or(0, |data| data.partition.len()),
         network: network(document, design),
         nonlinear: descriptor(&document.plant)
@@ -222,6 +244,21 @@ fn lmi(choice: &LmiChoice, analysis: Option<&Analysis>, design: Option<&Design>)
         infeasible,
         lights,
     }
+}
+
+fn compare(derived: &Derived) -> Vec<Compared> {
+    let Some(Ok(view)) = derived.comparison() else { return Vec::new() };
+    let row = |row: &ComparisonRow| {
+        let design = row.outcome.as_ref();
+        Compared {
+            name: row.name.clone(),
+            method: row.method.key(),
+            order: design.ok().map(|design| design.order),
+            verified: design.is_ok_and(|design| design.verified),
+            error: design.err().map(ToString::to_string),
+        }
+    };
+    view.comparison.rows.iter().map(row).collect()
 }
 
 fn errors(analysis: Option<&Analysis>) -> Vec<String> {

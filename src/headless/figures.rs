@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::commands::simulated;
+use super::compare::compared;
 use super::load::{Problem, load};
 use super::{Answer, DONE, Files, REFUSED, Refusal, Source};
 use crate::document::report::{FigureFiles, WrittenFigure, figures_report};
@@ -49,6 +50,9 @@ pub(super) fn figures(
 fn computed(problem: &Problem, chosen: &dyn Fn(&str) -> bool) -> Result<Vec<Computed>, Refusal> {
     let Problem { document, model } = problem;
     let system = &model.system;
+    if let Some(figures) = of_comparison(problem, chosen)? {
+        return Ok(figures);
+    }
     if document.figures.is_empty() {
         return standard_figures(problem, chosen);
     }
@@ -63,6 +67,21 @@ fn computed(problem: &Problem, chosen: &dyn Fn(&str) -> bool) -> Result<Vec<Comp
     let figure = |recipe: &paper::FigureRecipe| compute_figure(&problem, recipe, &Watch::none());
     Ok(recipes.map(|recipe| (recipe.id.clone(), recipe.title.clone(), figure(recipe))).collect())
 }
+
+/// The chosen figures of the comparison; `None` when none of these is chosen by its id.
+fn of_comparison(problem: &Problem, chosen: &dyn Fn(&str) -> bool) -> Result<Option<Vec<Computed>>, Refusal> {
+    // without a choice the document's own figures are meant
+    if chosen("") || !COMPARISON.iter().any(|id| chosen(id)) {
+        return Ok(None);
+    }
+    let figures = paper::comparison(&compared(problem)?, &problem.model.system);
+    let computed = figures.all().filter(|figure| chosen(&figure.id));
+    Ok(Some(computed.map(|figure| (figure.id.clone(), figure.title.clone(), Ok(figure.clone()))).collect()))
+}
+
+/// Ids of the figures that show all designs.
+const COMPARISON: [&str; 4] =
+    ["comparison-states", "comparison-errors", "comparison-unknown-input", "comparison-gains"];
 
 fn standard_figures(problem: &Problem, chosen: &dyn Fn(&str) -> bool) -> Result<Vec<Computed>, Refusal> {
     let (design, trajectory) = simulated(problem)?;
@@ -82,6 +101,7 @@ fn unknown(only: &str, document: &Document) -> Refusal {
     if ids.is_empty() {
         ids = vec!["states", "errors", "unknown-input", "bode"];
     }
+    ids.extend(COMPARISON);
     let hint = nearest(only, &ids).map_or(String::new(), |near| format!("; did you mean \"{near}\"?"));
     Refusal::bad_input(format!("there is no figure \"{only}\": the ids are {}{hint}", ids.join(", ")))
 }

@@ -13,17 +13,22 @@ usage:
   descry check FILE                        properties of the system and conditions of the chosen method, as JSON
   descry design FILE                       conditions, design and its verification, as JSON
   descry simulate FILE [--format csv|json] plant and observer over time
+  descry compare FILE [--format json|markdown|csv]
+                                           the chosen design beside those that are kept: orders, spectra, gains,
+                                           H-infinity norms of the error, errors of the scenario
   descry figures FILE --out DIR [--only ID]
                                            writes ID.svg and ID.csv for each figure, lists them as JSON
   descry examples                          lists the examples
   descry examples KEY [--out FILE]         writes an example out, to start from
+  descry errata [PAPER]                    lists the misprints of the papers (000 to 004) with their proofs, as JSON
   descry help, --help, --version
 
 FILE is a document; `-` reads standard input, `example:KEY` takes an example.
 A document without figures has the standard ones: states, errors, unknown-input, bode.
+`figures --only comparison-states` (-errors, -unknown-input, -gains) draws all designs of `compare` together.
 
 exit codes:
-  0  the design exists and is verified (check: all needed conditions hold)
+  0  the design exists and is verified (check: all needed conditions hold; compare: all designs are)
   1  it does not exist or is not verified, or a simulation or figure could not be made
   2  bad input: file, document, arguments, or a list of poles that does not fit
 

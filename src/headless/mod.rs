@@ -1,6 +1,8 @@
 //! L4: the commands that need no screen. They see files through [`Files`] and write to the writers they are given.
 
 mod commands;
+mod compare;
+mod errata;
 mod examples;
 mod figures;
 mod help;
@@ -39,6 +41,18 @@ pub enum Format {
     Json,
 }
 
+/// The format of a comparison.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TableFormat {
+    /// A report.
+    #[default]
+    Json,
+    /// A table with a column for each design.
+    Markdown,
+    /// The same table with all digits.
+    Csv,
+}
+
 /// What a person asks for on the command line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Request {
@@ -48,6 +62,8 @@ pub enum Request {
     Design(Source),
     /// The trajectory of plant and observer.
     Simulate(Source, Format),
+    /// The chosen design beside those that are kept.
+    Compare(Source, TableFormat),
     /// Figures as SVG and CSV files.
     Figures {
         /// The document.
@@ -64,6 +80,8 @@ pub enum Request {
         /// File to write to; standard output without.
         out: Option<PathBuf>,
     },
+    /// The misprints of the paper with this key; of all papers without.
+    Errata(Option<String>),
     /// How to use the commands.
     Help,
     /// The version of the program.
@@ -129,8 +147,10 @@ pub fn run(request: &Request, files: &dyn Files, out: &mut dyn Write, err: &mut 
         Request::Check(source) => commands::check(source, files),
         Request::Design(source) => commands::design(source, files),
         Request::Simulate(source, format) => commands::simulate(source, *format, files),
+        Request::Compare(source, format) => compare::compare(source, *format, files),
         Request::Figures { source, out, only } => figures::figures(source, out, only.as_deref(), files),
         Request::Examples { key, out } => examples::examples(key.as_deref(), out.as_deref(), files),
+        Request::Errata(paper) => errata::list(paper.as_deref()),
         Request::Help => Ok(Answer { text: HELP.to_owned(), ..Answer::default() }),
         Request::Version => Ok(Answer { text: format!("descry {VERSION}\n"), ..Answer::default() }),
     };

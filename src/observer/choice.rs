@@ -8,7 +8,7 @@ use super::{
 };
 use crate::numerics::{Complex64, Tolerance, Watch};
 use crate::system::properties::PropertyError;
-use crate::system::{Model, Network, TimeDomain};
+use crate::system::{Model, TimeDomain};
 
 /// The design methods.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -308,19 +308,4 @@ fn designed(
             None => Err(DesignError::Unsuitable("the plant is no network".to_owned())),
         },
     }
-}
-
-/// Asks the conditions of the hierarchical observer and designs it, for a network of any size: it is never expanded.
-///
-/// # Errors
-/// As [`assess`].
-pub fn assess_network(
-    network: &Network,
-    choice: &DesignChoice,
-    tolerance: &Tolerance,
-) -> Result<Assessment, PropertyError> {
-    let conditions = hierarchical::conditions(network, tolerance)?;
-    let outcome = hierarchical::design(network, choice, &conditions, tolerance)
-        .and_then(|design| design.common(network));
-    Ok(Assessment { choice: choice.clone(), conditions, outcome })
 }

@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::show;
 use crate::numerics::{Complex64, RankDecision};
+use crate::system::properties::{ModeCondition, UnobservableMode};
 
 /// Part of a formula: running text, or a block matrix drawn with brackets.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -105,6 +107,13 @@ pub enum Evidence {
     },
 }
 
+impl Evidence {
+    /// A rank beside the one that is required.
+    pub(super) fn rank(of: &str, decision: RankDecision, required: usize) -> Self {
+        Self::Rank { of: of.to_owned(), decision, required }
+    }
+}
+
 /// One finite point of a pencil or mode of a pair.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PointEvidence {
@@ -169,6 +178,56 @@ pub struct Condition {
     pub remedies: Vec<String>,
     /// Whether the chosen design needs it.
     pub needed: bool,
+}
+
+impl Condition {
+    /// A condition that is asked and not decided yet; the design needs it.
+    pub(super) fn asked((id, label): (String, &str), name: &str, formula: &str, source: String) -> Self {
+        Self {
+            id,
+            label: label.to_owned(),
+            name: name.to_owned(),
+            formula: Formula::parse(formula),
+            source,
+            verdict: Verdict::Undecided,
+            summary: String::new(),
+            evidence: Vec::new(),
+            witness: None,
+            remedies: Vec::new(),
+            needed: true,
+        }
+    }
+
+    /// Decides on the points at which the pencil `of` loses rank; `harmless` says what it means that all of them decay.
+    pub(super) fn decide_on_modes(
+        &mut self,
+        found: &ModeCondition,
+        of: &str,
+        coordinates: Vec<String>,
+        harmless: impl FnOnce(&[UnobservableMode]) -> String,
+    ) {
+        self.verdict = Verdict::of(found.holds(), found.fragile());
+        let violation = found.violations().next();
+        self.summary = match (&found.free_direction, violation) {
+            (Some(_), _) => format!("rank {} < {} for every s", found.normal_rank, found.needed),
+            (None, Some(mode)) => format!("rank is lost at s = {}, which is not stable", show(mode.s)),
+            (None, None) => harmless(&found.modes),
+        };
+        let direction = match (&found.free_direction, violation) {
+            (Some(free), _) => Some((None, free.iter().map(|x| Complex64::from(*x)).collect())),
+            (None, Some(mode)) => Some((Some(mode.s), mode.direction.clone())),
+            (None, None) => None,
+        };
+        self.witness = direction.map(|(s, direction)| Witness { s, direction, coordinates });
+        let points = found.modes.iter().map(|mode| PointEvidence {
+            s: mode.s,
+            multiplicity: mode.multiplicity,
+            distance: mode.sigma,
+            loses_rank: true,
+            stable: found.region.contains(mode.s, found.margin),
+        });
+        self.evidence.push(Evidence::Points { of: of.to_owned(), points: points.collect() });
+    }
 }
 
 #[cfg(test)]

@@ -69,6 +69,15 @@ impl Design {
     pub fn matrix(&self, name: &str) -> Option<&DMatrix<f64>> {
         self.matrices.iter().find(|m| m.name == name).map(|m| &m.value)
     }
+
+    /// The states of a plant with `n` states whose estimate tends to the truth, from zero, in ascending order: all, but of
+    /// a network those that [`HierarchicalObserver::estimated_states`] names.
+    pub fn estimated_states(&self, n: usize) -> Vec<usize> {
+        match &self.hierarchical {
+            Some(observer) => observer.estimated_states().into_iter().filter(|k| *k < n).collect(),
+            None => (0..n).collect(),
+        }
+    }
 }
 
 /// Why there is no design.

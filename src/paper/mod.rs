@@ -1,19 +1,29 @@
 //! L3: the papers as data: citations, example documents, figure recipes, errata.
 
+mod bode;
 mod compute;
 mod errata;
 mod figure;
+mod motion;
 mod palette;
 mod recipe;
+mod run;
 pub mod standard;
+mod standard_comparison;
+pub mod standard_network;
+mod standard_trade_off;
 
-pub use compute::{Problem, compute_figure};
-pub use errata::{Erratum, errata};
+pub use compute::{compute_figure, compute_network_figure};
+pub use errata::{Erratum, PrintedMatrix, errata, papers_with_errata, printed};
 pub use figure::{Axis, FigureSpec, Panel, Role, Series};
+pub use motion::Motion;
 pub use palette::{PALETTE, colour};
 pub use recipe::{
     DesignPatch, FigureRecipe, PanelRecipe, Quantity, RunRecipe, ScenarioPatch, SeriesRecipe, Transfer,
 };
+pub use run::{NetworkProblem, Problem};
+pub use standard_comparison::{ComparisonFigures, comparison, design_colour};
+pub use standard_trade_off::trade_off_figure;
 
 /// An example that comes with the program, as the text of a document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,12 +39,19 @@ pub struct Example {
 }
 
 /// All examples, the first of which opens when nothing else is asked for.
-pub const EXAMPLES: [Example; 6] = [
+pub const EXAMPLES: [Example; 10] = [
     Example {
         key: "proportional-integral",
         title: "Koenig and Mammar: unknown input by an integral loop",
         teaches: "Nine figures of the paper: how fast poles catch an unknown input, and what that costs.",
         text: include_str!("../../assets/examples/proportional-integral.json"),
+    },
+    Example {
+        key: "input-decoupled",
+        title: "Input-decoupled observer of a system with free states",
+        teaches: "More states than equations, and an unknown input that jumps: its estimate jumps with it, and no error ever \
+                  sees it.",
+        text: include_str!("../../assets/examples/input-decoupled.json"),
     },
     Example {
         key: "h-infinity-lipschitz",
@@ -47,6 +64,18 @@ pub const EXAMPLES: [Example; 6] = [
         title: "Decentralized observers of two interconnected subsystems",
         teaches: "Two local observers that do not know each other's states: decoupled exactly, or attenuated.",
         text: include_str!("../../assets/examples/decentralized.json"),
+    },
+    Example {
+        key: "hierarchical",
+        title: "Ishizaki et al.: a network, as a whole and one by one",
+        teaches: "One observer for what a network shows as a whole; local ones are plugged in and out without touching it.",
+        text: include_str!("../../assets/examples/hierarchical.json"),
+    },
+    Example {
+        key: "network-ring",
+        title: "A ring of a thousand subsystems",
+        teaches: "Five thousand states, estimated through six: the coupling has rank three, and only that counts.",
+        text: include_str!("../../assets/examples/network-ring.json"),
     },
     Example {
         key: "unseen-impulse",
@@ -66,6 +95,12 @@ pub const EXAMPLES: [Example; 6] = [
         teaches: "The same observer in discrete time: deadbeat poles, and a step that is learnt in a few samples.",
         text: include_str!("../../assets/examples/discrete.json"),
     },
+    Example {
+        key: "comparison",
+        title: "One plant, five observers",
+        teaches: "Offset, lag, noise: what proportional, integral, input-decoupled and H-infinity observers pay.",
+        text: include_str!("../../assets/examples/comparison.json"),
+    },
 ];
 
 /// The example with that key.
@@ -83,17 +118,27 @@ pub struct Paper {
 }
 
 /// The papers that are implemented.
-pub const PAPERS: [Paper; 3] = [
+pub const PAPERS: [Paper; 5] = [
     Paper {
         key: "000",
         citation: "\"Decentralized observers for large scale interconnected singular systems\", conference paper on the \
                    parameterisation of generalized Sylvester equations",
     },
     Paper {
+        key: "001",
+        citation: "\"Input-decoupled observer design for linear descriptor systems with unknown inputs\", conference paper on \
+                   systems that are not square",
+    },
+    Paper {
         key: "002",
         citation: "M. Zerrougui, M. Darouach, L. Boutat-Baddas and H. Souley Ali, \"H-infinity observers design for a \
                    class of continuous time nonlinear singular systems\", Journal of Control Science and Engineering \
                    2011, article 967571",
+    },
+    Paper {
+        key: "003",
+        citation: "T. Ishizaki, Y. Sakai, K. Kashima and J. Imura, \"Hierarchical decentralized observer design for linearly \
+                   coupled network systems\"",
     },
     Paper {
         key: "004",

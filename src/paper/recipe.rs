@@ -171,13 +171,22 @@ pub enum Quantity {
     Input,
     /// Measured output `y1`.
     Output,
+    /// State `z1` of a network as a whole.
+    Whole,
+    /// Its estimate `z1_hat`.
+    WholeEstimate,
+    /// Its error `ez1 = z1 - z1_hat`.
+    WholeError,
 }
 
 impl Quantity {
-    const PATTERNS: [(&'static str, &'static str, Self); 8] = [
+    const PATTERNS: [(&'static str, &'static str, Self); 11] = [
         ("x", "_hat", Self::Estimate),
         ("d", "_hat", Self::UnknownInputEstimate),
         ("ed", "", Self::UnknownInputError),
+        ("z", "_hat", Self::WholeEstimate),
+        ("ez", "", Self::WholeError),
+        ("z", "", Self::Whole),
         ("x", "", Self::State),
         ("e", "", Self::Error),
         ("d", "", Self::UnknownInput),
@@ -185,7 +194,11 @@ impl Quantity {
         ("y", "", Self::Output),
     ];
 
-    /// Reads `x1`, `x1_hat`, `e1`, `d1`, `d1_hat`, `ed1`, `u1` or `y1`: the quantity and its index from zero.
+    /// Reads `x1`, `x1_hat`, `e1`, `d1`, `d1_hat`, `ed1`, `u1`, `y1`, `z1`, `z1_hat` or `ez1`: the quantity and its index
+    /// from zero.
+    ///
+    /// States of a network are numbered as in [`Network::expanded`](crate::system::Network::expanded): `x16` is the first
+    /// state of subsystem 4 where subsystems have five.
     pub fn parse(text: &str) -> Option<(Self, usize)> {
         Self::PATTERNS.iter().find_map(|(front, back, quantity)| {
             let number = text.strip_prefix(front)?.strip_suffix(back)?;
@@ -214,7 +227,7 @@ mod tests {
 
     #[test]
     fn unknown_names_are_refused() {
-        for text in ["", "x", "x0", "z1", "x1_hat_hat", "x-1", "x+1"] {
+        for text in ["", "x", "x0", "zz1", "z1_error", "x1_hat_hat", "x-1", "x+1"] {
             assert_eq!(Quantity::parse(text), None, "`{text}` names nothing");
         }
     }

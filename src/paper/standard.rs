@@ -111,7 +111,12 @@ pub fn bode(system: &DescriptorSystem, design: &Design) -> Option<FigureSpec> {
     if design.observer.n_estimated_inputs() > 0 {
         add("d1 to d1_hat".to_owned(), Role::Response, 7, curve(&|r| r.d_hat[(0, 0)]));
     }
+    let mut silent: Vec<String> = Vec::new();
     for i in 0..system.n_states().min(MOST_CURVES) {
+        if responses.iter().flatten().all(|r| is_rounding(r, i)) {
+            silent.push(format!("e{}", i + 1));
+            continue;
+        }
         add(format!("d1 to e{}", i + 1), Role::Error, i, curve(&|r| r.x[(i, 0)] - r.x_hat[(i, 0)]));
     }
     if magnitudes.is_empty() {
@@ -124,9 +129,23 @@ pub fn bode(system: &DescriptorSystem, design: &Design) -> Option<FigureSpec> {
         y: Axis { label: label.to_owned(), ..Axis::default() },
         series,
     };
-    let caption = "From the unknown input to its estimate and to the errors, plant and observer together.";
+    let mut caption =
+        "From the unknown input to its estimate and to the errors, plant and observer together.".to_owned();
+    if !silent.is_empty() {
+        caption = format!("{caption} Zero, hence not drawn: d1 to {}.", silent.join(", "));
+    }
     let panels = [panel("", "magnitude (dB)", magnitudes), panel("", "phase (degrees)", phases)];
-    Some(figure("bode", "Bode", caption, panels.into_iter()))
+    Some(figure("bode", "Bode", &caption, panels.into_iter()))
+}
+
+/// Share of state and estimate below which their difference is rounding.
+const ROUNDING: f64 = 1e-10;
+
+/// Whether the error of a state is nothing but what rounding leaves of state and estimate.
+fn is_rounding(response: &Response, state: usize) -> bool {
+    let column = |m: &nalgebra::DMatrix<Complex64>| m.column(0).norm();
+    let size = column(&response.x) + column(&response.x_hat);
+    (response.x[(state, 0)] - response.x_hat[(state, 0)]).norm() <= ROUNDING * size
 }
 
 /// Error curves in one Bode diagram; more would not be told apart.
@@ -142,7 +161,12 @@ fn bode_range(observer: &LinearObserver, time: TimeDomain) -> [f64; 2] {
     [10_f64.powf(decade - 4.0), 10_f64.powf(decade + 2.0)]
 }
 
-fn figure(id: &str, title: &str, caption: &str, panels: impl Iterator<Item = Panel>) -> FigureSpec {
+pub(super) fn figure(
+    id: &str,
+    title: &str,
+    caption: &str,
+    panels: impl Iterator<Item = Panel>,
+) -> FigureSpec {
     FigureSpec {
         id: id.to_owned(),
         title: title.to_owned(),

@@ -2,15 +2,16 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::document::Document;
-use crate::numerics::{Complex64, Tolerance, Watch};
-use crate::observer::{Assessment, Condition, DesignChoice, Method, Verdict, assess, conditions};
-use crate::paper::{FigureSpec, standard};
-use crate::system::properties::{
-    finite_eigenvalues, impulse_observability, index, r_detectability, r_observability, rank_e, rank_e_c,
-    regularity,
-};
-use crate::system::{DescriptorSystem, Model, TimeDomain};
+use super::analysis_network as of_network;
+use super::analysis_properties::properties;
+use super::free_report::FreeReport;
+use super::light::lights;
+use crate::document::{Document, Subject};
+use crate::numerics::{Complex64, Watch};
+use crate::observer::{Assessment, Method, Verdict, assess};
+use crate::paper::{FigureSpec, Motion, standard};
+use crate::system::Model;
+use crate::system::properties::finite_eigenvalues;
 
 /// What follows from a document.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -27,6 +28,8 @@ pub struct Analysis {
     pub simulation: Result<Simulation, String>,
     /// Frequency responses of the design.
     pub bode: Option<FigureSpec>,
+    /// What the equations leave free, for a plant that is not square.
+    pub free: Option<FreeReport>,
 }
 
 /// A property of the system with its evidence in words.
@@ -75,8 +78,12 @@ pub struct Simulation {
     pub errors: FigureSpec,
     /// Unknown inputs, known inputs, outputs.
     pub unknown_input: FigureSpec,
-    /// Root mean square of each state's error over the second half of the horizon.
+    /// The states that the observer estimates and the simulation shows, from zero, in ascending order.
+    pub estimated: Vec<usize>,
+    /// Root mean square of the error of each of these states over the second half of the horizon.
     pub rms: Vec<f64>,
+    /// Root mean square of `norm(z - z_hat)` over the second half of the horizon, where a network is observed as a whole.
+    pub rms_whole: Option<f64>,
     /// Root mean square of each unknown input's error over the second half of the horizon.
     pub rms_unknown: Vec<f64>,
     /// What a person should know: a projected initial state, a trajectory that was cut off.
@@ -86,15 +93,19 @@ pub struct Simulation {
 /// Computes everything that follows from a document; `None` when `watch` said stop.
 pub fn analyse(document: &Document, watch: &Watch) -> Option<Analysis> {
     let tolerance = &document.tolerance;
-    let model = match document.model() {
-        Ok(model) => model,
+    let model = match document.subject() {
+        Ok(Subject::Model(model)) => model,
+        Ok(Subject::Network(network)) => return of_network::analyse(document, &network, watch),
         Err(error) => return Some(Analysis::failed(&error.to_string())),
     };
     let system = &model.system;
     if !watch.go_on(0.0, "properties") {
         return None;
     }
-    let properties = properties(system, tolerance);
+    let mut properties = properties(system, tolerance);
+    if let Some(network) = &model.network {
+        properties.extend(of_network::structure(network, tolerance));
+    }
     let plant_eigenvalues =
         finite_eigenvalues(system, tolerance).map(|found| found.values).unwrap_or_default();
     if !watch.go_on(0.1, "conditions") {
@@ -102,17 +113,18 @@ pub fn analyse(document: &Document, watch: &Watch) -> Option<Analysis> {
     }
     let assessment =
         assess(&model, &document.design, tolerance, &watch.part(0.1, 0.8)).map_err(|error| error.to_string());
-    // the conditions of the chosen method are known already
-    let known = assessment.as_ref().ok().map(|assessment| assessment.conditions.as_slice());
-    let known = |method: Method| known.filter(|_| method == document.design.method);
-    let methods = Method::ALL.iter().map(|m| light(&model, document, *m, known(*m))).collect();
+    let methods = lights(&model, document, assessment.as_ref());
     if !watch.go_on(0.8, "simulation") {
         return None;
     }
-    let simulation = simulation(document, &model, assessment.as_ref(), &watch.part(0.8, 1.0));
+    let free = FreeReport::new(document, &model);
+    let simulation = simulation(document, &model, assessment.as_ref(), &watch.part(0.8, 1.0)).map(|found| {
+        let notes = FreeReport::without_own(free.as_ref(), found.notes);
+        Simulation { notes, ..found }
+    });
     let design = assessment.as_ref().ok().and_then(|a| a.outcome.as_ref().ok());
     let bode = design.and_then(|design| standard::bode(system, design));
-    Some(Analysis { properties, plant_eigenvalues, methods, assessment, simulation, bode })
+    Some(Analysis { properties, plant_eigenvalues, methods, assessment, simulation, bode, free })
 }
 
 impl Analysis {
@@ -124,6 +136,7 @@ impl Analysis {
             assessment: Err(why.to_owned()),
             simulation: Err(why.to_owned()),
             bode: None,
+            free: None,
         }
     }
 
@@ -158,142 +171,18 @@ fn simulation(
             values.join(", ")
         ));
     }
+    if let Some(network) = &model.network {
+        let motion = Motion::of_system(trajectory, design);
+        return Ok(of_network::views(network, &motion, notes));
+    }
     Ok(Simulation {
+        estimated: design.estimated_states(system.n_states()),
         rms: trajectory.rms(&observer.e, half),
+        rms_whole: None,
         rms_unknown: trajectory.rms(&observer.e_d, half),
         states: standard::states(&trajectory, system.time, &model.partition),
         errors: standard::errors(&trajectory, system.time, &model.partition),
         unknown_input: standard::unknown_inputs(&trajectory, system.time),
         notes,
     })
-}
-
-fn light(model: &Model, document: &Document, method: Method, known: Option<&[Condition]>) -> MethodLight {
-    let light = |light, why: &str| MethodLight { method, light, why: why.to_owned() };
-    if let Some(why) = method.missing(model) {
-        return light(Light::Missing, &why);
-    }
-    let asked;
-    let found = if let Some(known) = known {
-        known
-    } else {
-        let chosen = &document.design;
-        // an order that the method does not have stands for its usual one
-        let usual = method.orders().first().copied().unwrap_or_default();
-        let order = if method.orders().contains(&chosen.order) { chosen.order } else { usual };
-        let choice = DesignChoice { method, order, ..chosen.clone() };
-        match conditions(model, &choice, &document.tolerance) {
-            Ok(found) => {
-                asked = found;
-                asked.as_slice()
-            }
-            Err(error) => return light(Light::Fails, &error.to_string()),
-        }
-    };
-    let needed = || found.iter().filter(|condition| condition.needed);
-    if let Some(failed) = needed().find(|condition| !condition.verdict.holds()) {
-        return light(Light::Fails, &format!("condition {} fails: {}", failed.label, failed.summary));
-    }
-    match needed().find(|condition| condition.verdict == Verdict::Fragile) {
-        Some(near) => light(Light::Near, &format!("condition {} holds narrowly", near.label)),
-        None => light(Light::Exists, "all conditions hold"),
-    }
-}
-
-fn properties(system: &DescriptorSystem, tolerance: &Tolerance) -> Vec<Property> {
-    let mut result = vec![sizes(system)];
-    let mut add = |name: &str, found: Result<(String, String, Option<Verdict>), String>| {
-        let (value, detail, verdict) = found
-            .unwrap_or_else(|error| ("could not be decided".to_owned(), error, Some(Verdict::Undecided)));
-        result.push(Property { name: name.to_owned(), value, detail, verdict });
-    };
-    let question = |holds: bool, fragile: bool| Some(Verdict::of(holds, fragile));
-    add(
-        "Regular",
-        text(regularity(system, tolerance)).map(|found| {
-            let structure = &found.structure;
-            let detail = format!(
-                "normal rank {} of the {} x {} pencil",
-                structure.normal_rank, structure.rows, structure.columns
-            );
-            (yes_no(found.holds()), detail, question(found.holds(), found.fragile()))
-        }),
-    );
-    add(
-        "Index",
-        text(index(system, tolerance)).map(|found| match found.index {
-            Some(index) => (index.to_string(), "largest infinite elementary divisor".to_owned(), None),
-            None => ("none".to_owned(), "the pencil is singular".to_owned(), None),
-        }),
-    );
-    add(
-        "rank E",
-        text(rank_e(system, tolerance)).map(|found| {
-            let detail = format!("smallest counted singular value {:.3e}", found.smallest_counted());
-            (format!("{} of {}", found.rank, system.n_states()), detail, None)
-        }),
-    );
-    add(
-        "rank [E; C] = n",
-        text(rank_e_c(system, tolerance)).map(|found| {
-            (
-                format!("{} of {}", found.decision.rank, found.needed),
-                "observable at infinity".to_owned(),
-                question(found.holds(), found.fragile()),
-            )
-        }),
-    );
-    add(
-        "Impulse observable",
-        text(impulse_observability(system, tolerance)).map(|found| {
-            let detail = format!("rank {} of {} needed", found.printed.decision.rank, found.printed.needed);
-            (yes_no(found.holds()), detail, question(found.holds(), found.fragile()))
-        }),
-    );
-    for (name, found) in [
-        ("R-observable", r_observability(system, tolerance)),
-        ("R-detectable", r_detectability(system, tolerance)),
-    ] {
-        add(
-            name,
-            text(found).map(|found| {
-                let points: Vec<String> =
-                    found.modes.iter().map(|mode| crate::observer::show(mode.s)).collect();
-                let detail = match (&found.free_direction, points.is_empty()) {
-                    (Some(_), _) => "rank is below n for every s".to_owned(),
-                    (None, true) => "no unobservable finite mode".to_owned(),
-                    (None, false) => format!("unobservable at s = {}", points.join(", ")),
-                };
-                (yes_no(found.holds()), detail, question(found.holds(), found.fragile()))
-            }),
-        );
-    }
-    result
-}
-
-fn text<T, E: std::fmt::Display>(found: Result<T, E>) -> Result<T, String> {
-    found.map_err(|error| error.to_string())
-}
-
-fn yes_no(holds: bool) -> String {
-    if holds { "yes" } else { "no" }.to_owned()
-}
-
-fn sizes(system: &DescriptorSystem) -> Property {
-    let time = match system.time {
-        TimeDomain::Continuous => "continuous time",
-        TimeDomain::Discrete => "discrete time",
-    };
-    Property {
-        name: "Size".to_owned(),
-        value: format!("{} states", system.n_states()),
-        detail: format!(
-            "{} equations, {} known inputs, {} outputs, {} unknown inputs, {time}",
-            system.n_equations(),
-            system.n_inputs(),
-            system.n_outputs(),
-            system.n_unknown_inputs()
-        ),
-        verdict: None,
-    }
 }

@@ -1,12 +1,17 @@
 //! Carrying out an edit: the change, what follows from it, drafts, and the step of the history.
 
 use super::command::Edit;
+use super::edit_compare::CompareEdit;
+use super::edit_free::FreeEdit;
 use super::follow::follow;
 use super::model_edits::{GivenPart, LipschitzEdit, LmiEdit, PartitionEdit};
 use super::network_edits::{NetworkCell, NetworkEdit};
 use super::state::{Draft, Field, Message, Session};
 use super::update::{Edited, replace};
-use super::{edit_lipschitz, edit_lmi, edit_network, edit_partition, edit_plant, edit_scenario, poles};
+use super::{
+    edit_compare, edit_free, edit_lipschitz, edit_lmi, edit_network, edit_partition, edit_plant,
+    edit_scenario, poles,
+};
 use crate::document::{Document, Entry, EntryMatrix, Matrix, NetworkMatrix, PlantData, limits};
 
 /// Carries out an edit as one step, or as a part of the drag that it belongs to.
@@ -15,6 +20,8 @@ pub(super) fn apply(session: &mut Session, edit: Edit) {
     let ends = drag.as_ref().is_none_or(|(_, done)| *done);
     let field = typed_field(&edit);
     let overwritten = overwritten(&edit);
+    let fed_back = matches!(edit, Edit::Free(FreeEdit::Feedback(_) | FreeEdit::Paste(_)));
+    let exchanged = matches!(&edit, Edit::Compare(edit) if edit_compare::exchanges(edit));
     let waiting = if ends { waiting_fields(&edit) } else { None };
     let mut document = (*session.document).clone();
     let (edited, told) = changed(&mut document, &session.document, edit);
@@ -25,6 +32,12 @@ pub(super) fn apply(session: &mut Session, edit: Edit) {
             }
             let resized = sizes(&session.document) != sizes(&document);
             session.drafts.retain(|field, _| keeps_meaning(field, &document, resized));
+            if exchanged {
+                session.drafts.retain(|field, _| !edit_compare::belongs_to_a_design(field));
+            }
+            if fed_back {
+                session.drafts.retain(|field, _| !matches!(field, Field::FreeFeedback(..)));
+            }
             session.drafts.retain(|field, _| !overwritten.covers(field));
             replace(session, document, drag.map(|(key, _)| key));
             if !told.is_empty() {
@@ -127,10 +140,14 @@ fn keeps_meaning(field: &Field, document: &Document, resized: bool) -> bool {
     };
     let lmi = &document.design.lmi;
     match field {
-        Field::Poles | Field::LocalPoles => true,
+        Field::Poles | Field::LocalPoles | Field::InitialFormula => true,
         Field::Network(_) => !resized && is_network(document),
         Field::Subsystems => is_network(document),
-        Field::Cell(_) | Field::Initial(_) | Field::Signal(..) | Field::Uncertainty(..) => !resized,
+        Field::Cell(_)
+        | Field::Initial(_)
+        | Field::Signal(..)
+        | Field::Uncertainty(..)
+        | Field::FreeSignal(_) => !resized,
         Field::Rows(subsystem, row, column) => {
             let there = |rows: &nalgebra::DMatrix<f64>| *row < rows.nrows() && *column < rows.ncols();
             !resized && lmi.rows.get(*subsystem).is_some_and(there)
@@ -139,6 +156,8 @@ fn keeps_meaning(field: &Field, document: &Document, resized: bool) -> bool {
         Field::Lipschitz(..) => !resized && nonlinearity.is_some(),
         Field::Component(index) => nonlinearity.is_some_and(|lipschitz| *index < lipschitz.f.len()),
         Field::LipschitzConstant => nonlinearity.is_some(),
+        Field::FreeFeedback(..) => !resized && document.scenario.free.feedback.is_some(),
+        Field::KeptName(index) => *index < document.kept.len(),
     }
 }
 
@@ -196,6 +215,7 @@ fn typed_field(edit: &Edit) -> Option<Field> {
         Edit::Cell { cell, .. } => Some(Field::Cell(*cell)),
         Edit::Poles(_) | Edit::MovePole { .. } => Some(Field::Poles),
         Edit::Initial { state, .. } => Some(Field::Initial(*state)),
+        Edit::InitialFormula(_) => Some(Field::InitialFormula),
         Edit::Signal { list, index, .. } => Some(Field::Signal(*list, *index)),
         Edit::UncertaintyCell { row, column, frequency, .. } => {
             Some(Field::Uncertainty(*row, *column, *frequency))
@@ -209,6 +229,9 @@ fn typed_field(edit: &Edit) -> Option<Field> {
         }
         Edit::Lipschitz(LipschitzEdit::Component { index, .. }) => Some(Field::Component(*index)),
         Edit::Lipschitz(LipschitzEdit::Constant(_)) => Some(Field::LipschitzConstant),
+        Edit::Free(FreeEdit::Signal { index, .. }) => Some(Field::FreeSignal(*index)),
+        Edit::Free(FreeEdit::Cell { row, column, .. }) => Some(Field::FreeFeedback(*row, *column)),
+        Edit::Compare(CompareEdit::Rename { kept, .. }) => Some(Field::KeptName(*kept)),
         Edit::Network(edit) => typed_into_network(edit),
         _ => None,
     }
@@ -279,8 +302,11 @@ fn change(document: &mut Document, edit: Edit) -> Edited {
         }
         Edit::Partition(edit) => return edit_partition::change(document, edit),
         Edit::Lipschitz(edit) => return edit_lipschitz::change(document, edit),
+        Edit::Free(edit) => return edit_free::change(document, edit),
+        Edit::Compare(edit) => return edit_compare::change(document, edit),
         Edit::Network(edit) => return edit_network::change(document, edit),
         Edit::Initial { .. }
+        | Edit::InitialFormula(_)
         | Edit::Signal { .. }
         | Edit::Horizon(_)
         | Edit::Samples(_)

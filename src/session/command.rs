@@ -1,10 +1,13 @@
 //! Every intent of a user, as data: the menu, the shortcuts and the tests are made of these.
 
+use super::edit_compare::CompareEdit;
+use super::edit_free::FreeEdit;
 use super::model_edits::{LipschitzEdit, LmiEdit, PartitionEdit};
 use super::network_edits::NetworkEdit;
 use crate::document::Matrix;
 use crate::numerics::Complex64;
 use crate::observer::{Method, Order};
+use crate::paper::{ComparisonFigures, FigureSpec};
 use crate::system::TimeDomain;
 
 /// What a person wants.
@@ -103,6 +106,8 @@ pub enum Edit {
         /// What was typed.
         text: String,
     },
+    /// Initial states of all components as one expression in `i`, as typed; empty for zeros.
+    InitialFormula(String),
     /// A signal, as typed.
     Signal {
         /// Which list.
@@ -149,6 +154,10 @@ pub enum Edit {
     Partition(PartitionEdit),
     /// The nonlinearity.
     Lipschitz(LipschitzEdit),
+    /// What drives the states that the equations leave free.
+    Free(FreeEdit),
+    /// The designs that are kept to be compared.
+    Compare(CompareEdit),
     /// The network.
     Network(NetworkEdit),
 }
@@ -213,6 +222,8 @@ pub enum Show {
     Tab(Tab),
     /// A figure of the document.
     Figure(String),
+    /// A figure of the comparison.
+    Compared(ComparedFigure),
     /// On narrow screens: one of the three places.
     Place(Place),
     /// Light or dark.
@@ -235,19 +246,25 @@ pub enum Tab {
     Poles,
     /// Frequency responses.
     Bode,
+    /// Designs along a sweep of the bandwidth or of the decay.
+    TradeOff,
+    /// The chosen design beside those that are kept.
+    Compare,
     /// Figures of the document.
     Figures,
 }
 
 impl Tab {
     /// All views, in the order in which they are offered.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 9] = [
         Self::Overview,
         Self::States,
         Self::Errors,
         Self::UnknownInput,
         Self::Poles,
         Self::Bode,
+        Self::TradeOff,
+        Self::Compare,
         Self::Figures,
     ];
 
@@ -260,7 +277,48 @@ impl Tab {
             Self::UnknownInput => "Unknown input",
             Self::Poles => "Poles",
             Self::Bode => "Bode",
+            Self::TradeOff => "Trade-off",
+            Self::Compare => "Compare",
             Self::Figures => "Paper figures",
+        }
+    }
+}
+
+/// The figures of a comparison.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ComparedFigure {
+    /// True states and all estimates.
+    #[default]
+    States,
+    /// The errors of all designs.
+    Errors,
+    /// Unknown inputs and all estimates.
+    UnknownInput,
+    /// Largest gains over frequency.
+    Gains,
+}
+
+impl ComparedFigure {
+    /// All, in the order in which they are offered.
+    pub const ALL: [Self; 4] = [Self::States, Self::Errors, Self::UnknownInput, Self::Gains];
+
+    /// The name on screen.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::States => "All states",
+            Self::Errors => "All errors",
+            Self::UnknownInput => "All unknown inputs",
+            Self::Gains => "All gains",
+        }
+    }
+
+    /// The figure, unless it would be empty.
+    pub fn of(self, figures: &ComparisonFigures) -> Option<&FigureSpec> {
+        match self {
+            Self::States => figures.states.as_ref(),
+            Self::Errors => figures.errors.as_ref(),
+            Self::UnknownInput => figures.unknown_input.as_ref(),
+            Self::Gains => figures.gains.as_ref(),
         }
     }
 }

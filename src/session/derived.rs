@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use super::analysis::Analysis;
 use super::command::Tab;
-use super::job::{JobReply, JobRequest, Outcome, Task};
+use super::comparison::ComparisonView;
+use super::job::{JobReply, JobRequest, Outcome, TRADE_OFF, Task};
 use super::state::Session;
 use crate::paper::FigureSpec;
 
@@ -16,6 +17,7 @@ const CANCELLED: &str = "cancelled";
 pub struct Derived {
     analysis: Option<(u64, Box<Analysis>)>,
     figures: BTreeMap<String, (u64, Result<FigureSpec, String>)>,
+    comparison: Option<(u64, Result<Box<ComparisonView>, String>)>,
     running: Option<JobRequest>,
     progress: (f32, String),
     failure: Option<String>,
@@ -39,6 +41,21 @@ impl Derived {
     /// The newest result for a figure.
     pub fn figure(&self, id: &str) -> Option<&Result<FigureSpec, String>> {
         self.figures.get(id).map(|(_, figure)| figure)
+    }
+
+    /// The newest picture of a sweep.
+    pub fn trade_off(&self) -> Option<&Result<FigureSpec, String>> {
+        self.figure(TRADE_OFF)
+    }
+
+    /// The newest comparison, or why there is none; it may belong to an earlier revision while the next is computed.
+    pub fn comparison(&self) -> Option<Result<&ComparisonView, &str>> {
+        self.comparison.as_ref().map(|(_, found)| found.as_deref().map_err(String::as_str))
+    }
+
+    /// Whether the newest comparison belongs to that revision.
+    pub fn is_compared(&self, revision: u64) -> bool {
+        self.comparison.as_ref().is_some_and(|(of, _)| *of == revision)
     }
 
     /// What is being computed, how far it is.
@@ -77,7 +94,7 @@ impl Derived {
 
     /// The next request, when nothing runs and something is out of date.
     ///
-    /// The analysis comes first; then the chosen figure, when it is on screen.
+    /// The analysis comes first; then the comparison or the chosen figure, when it is on screen.
     pub fn next_request(&mut self, session: &Session) -> Option<JobRequest> {
         if self.running.is_some() {
             return None;
@@ -85,9 +102,18 @@ impl Derived {
         let revision = session.revision();
         let task = if !self.is_current(revision) && self.given_up != Some(revision) {
             Task::Analyse
+        } else if session.view().tab == Tab::Compare {
+            if self.is_compared(revision) {
+                return None;
+            }
+            Task::Compare
         } else {
-            let id = session.view().figure.clone().filter(|_| session.view().tab == Tab::Figures)?;
-            let exists = session.document().figures.iter().any(|figure| figure.id == id);
+            let id = match session.view().tab {
+                Tab::Figures => session.view().figure.clone()?,
+                Tab::TradeOff => TRADE_OFF.to_owned(),
+                _ => return None,
+            };
+            let exists = id == TRADE_OFF || session.document().figures.iter().any(|figure| figure.id == id);
             let current = self.figures.get(&id).is_some_and(|(of, _)| *of == revision);
             if current || !exists {
                 return None;
@@ -115,6 +141,7 @@ impl Derived {
                 self.analysis = Some((reply.revision, analysis));
                 self.failure = None;
             }
+            Outcome::Comparison(found) => self.comparison = Some((reply.revision, found)),
             Outcome::Figure { id, figure } => {
                 self.figures.insert(id, (reply.revision, figure));
             }
@@ -139,6 +166,7 @@ impl Derived {
         self.given_up = None;
         self.failure = None;
         self.figures.retain(|_, (_, figure)| figure.is_ok());
+        self.comparison.take_if(|(_, found)| found.is_err());
     }
 
     fn break_off(&mut self, why: String) {
@@ -146,6 +174,9 @@ impl Derived {
             Some(JobRequest { task: Task::Analyse, revision, .. }) => self.given_up = Some(*revision),
             Some(JobRequest { task: Task::Figure { id }, revision, .. }) => {
                 self.figures.insert(id.clone(), (*revision, Err(why.clone())));
+            }
+            Some(JobRequest { task: Task::Compare, revision, .. }) => {
+                self.comparison = Some((*revision, Err(why.clone())));
             }
             None => {}
         }

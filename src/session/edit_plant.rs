@@ -205,6 +205,8 @@ fn drop_broken_figures(document: &mut Document, sizes: Sizes) {
         }
         Quantity::Input => index < sizes.inputs,
         Quantity::Output => index < sizes.outputs,
+        // of networks only
+        Quantity::Whole | Quantity::WholeEstimate | Quantity::WholeError => false,
     };
     let fits = |signals: &Option<Vec<Signal>>, count: usize| {
         signals.as_ref().is_none_or(|signals| signals.is_empty() || signals.len() == count)

@@ -4,7 +4,7 @@ use super::command::{Edit, SignalList};
 use super::state::{Draft, Field};
 use super::update::Edited;
 use crate::document::limits::{MAX_HORIZON, MAX_SAMPLES, MAX_SIDE};
-use crate::document::{Document, Entry, EntryMatrix, ScenarioData, Sizes, UncertaintyData};
+use crate::document::{Document, Entry, EntryMatrix, InitialFormula, ScenarioData, Sizes, UncertaintyData};
 use crate::system::Signal;
 
 /// Changes the scenario of a document.
@@ -20,12 +20,19 @@ pub(super) fn change(document: &mut Document, edit: Edit) -> Edited {
             scenario.samples = samples.clamp(2, most);
         }
         Edit::Initial { state, text } => match Entry::typed(&text) {
-            Ok(entry) if state < sizes.states => {
-                scenario.x0.resize(sizes.states, Entry::number(0.0));
-                scenario.x0[state] = entry;
-            }
-            Ok(_) => {}
+            Ok(entry) => return set_initial(scenario, sizes.states, (state, entry)),
             Err(error) => return Edited::Draft(Field::Initial(state), Draft { text, error }),
+        },
+        Edit::InitialFormula(text) if text.trim().is_empty() => {
+            scenario.x0.clear();
+            scenario.x0_formula = None;
+        }
+        Edit::InitialFormula(text) => match InitialFormula::checked(&text, sizes.states) {
+            Ok(formula) => {
+                scenario.x0.clear();
+                scenario.x0_formula = Some(formula);
+            }
+            Err(error) => return Edited::Draft(Field::InitialFormula, Draft { text, error }),
         },
         Edit::Signal { list, index, text } => match Signal::parse(&text) {
             Ok(signal) => return set_signal(scenario, &sizes, (list, index), signal),
@@ -59,6 +66,23 @@ pub(super) fn change(document: &mut Document, edit: Edit) -> Edited {
                 if deviation > 0.0 { (0..sizes.outputs).filter_map(signal).collect() } else { Vec::new() };
         }
         _ => {}
+    }
+    Edited::Done
+}
+
+/// Sets the initial state of one component; values of an expression for all become entries first.
+fn set_initial(scenario: &mut ScenarioData, states: usize, (state, entry): (usize, Entry)) -> Edited {
+    if states > MAX_SIDE {
+        return too_many("states", states);
+    }
+    if state < states {
+        let values = scenario.initial_values(states);
+        if scenario.x0.is_empty() {
+            scenario.x0 = values.into_iter().map(Entry::number).collect();
+        }
+        scenario.x0_formula = None;
+        scenario.x0.resize(states, Entry::number(0.0));
+        scenario.x0[state] = entry;
     }
     Edited::Done
 }

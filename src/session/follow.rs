@@ -2,9 +2,9 @@
 
 use nalgebra::DMatrix;
 
-use super::edit_lipschitz;
 use super::edit_lmi::{fit_given, follow_time, time};
-use super::follow_network;
+use super::follow_kept::follow_kept;
+use super::{edit_free, edit_lipschitz, follow_network};
 use crate::document::{Document, EntryMatrix, Matrix, PlantData, Sizes};
 use crate::observer::Method;
 use crate::system::{Subsystem, check_partition};
@@ -16,9 +16,18 @@ use crate::system::{Subsystem, check_partition};
 /// what a document holds.
 pub(super) fn follow(document: &mut Document, before: &Document) -> Result<Vec<String>, String> {
     let mut gone = follow_network::follow(document, before)?;
-    gone.extend(follow_time(document, time(before)));
     gone.extend(edit_lipschitz::follow_sizes(document));
+    edit_free::follow_sizes(document);
     gone.extend(partition(document, before)?);
+    gone.extend(fit_design(document, before));
+    gone.extend(follow_kept(document, before));
+    Ok(gone)
+}
+
+/// Adapts the chosen design to the plant of its document.
+pub(super) fn fit_design(document: &mut Document, before: &Document) -> Vec<String> {
+    let mut gone = Vec::new();
+    gone.extend(follow_time(document, time(before)));
     gone.extend(rows(document, before));
     decoupled(document);
     let outputs = Sizes::of(&document.plant).outputs;
@@ -27,7 +36,7 @@ pub(super) fn follow(document: &mut Document, before: &Document) -> Result<Vec<S
     if examined && document.design.lmi.given.is_none() {
         gone.push("the observer that was examined does not fit so many outputs".to_owned());
     }
-    Ok(gone)
+    gone
 }
 
 /// The last subsystem takes what is new and gives what is gone; one without a state left goes.

@@ -159,6 +159,8 @@ fn figures(document: &mut Document, old: &Numbers, new: &Numbers) -> Vec<String>
     let number = |quantity: Quantity, k: usize| match quantity {
         Quantity::State | Quantity::Estimate | Quantity::Error => new.state(k, old),
         Quantity::Output => new.output(k, old),
+        // how many states the whole has follows from ranks, so that the figure judges the number
+        Quantity::Whole | Quantity::WholeEstimate | Quantity::WholeError => Some(k),
         Quantity::UnknownInput
         | Quantity::UnknownInputEstimate
         | Quantity::UnknownInputError

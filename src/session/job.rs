@@ -3,9 +3,12 @@
 use serde::{Deserialize, Serialize};
 
 use super::analysis::{Analysis, analyse};
-use crate::document::read_document;
+use super::comparison::{ComparisonView, compared};
+use super::free_report::FreeReport;
+use crate::document::{Document, Subject, read_document};
 use crate::numerics::Watch;
-use crate::paper::{FigureSpec, Problem, compute_figure};
+use crate::paper::{FigureSpec, trade_off_figure};
+use crate::simulation::trade_off;
 
 /// A computation that is asked for.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -25,6 +28,8 @@ pub struct JobRequest {
 pub enum Task {
     /// Properties, conditions, design, simulation and standard views.
     Analyse,
+    /// The chosen design beside those that are kept.
+    Compare,
     /// One figure of the document.
     Figure {
         /// Its id.
@@ -55,6 +60,8 @@ pub enum Outcome {
     },
     /// The analysis of the document.
     Analysis(Box<Analysis>),
+    /// A comparison, or why there is none.
+    Comparison(Result<Box<ComparisonView>, String>),
     /// A figure, or why there is none.
     Figure {
         /// Its id.
@@ -75,6 +82,7 @@ pub fn perform(request: &JobRequest, watch: &Watch) -> Option<JobReply> {
     };
     let outcome = match &request.task {
         Task::Analyse => Outcome::Analysis(Box::new(analyse(&document, watch)?)),
+        Task::Compare => Outcome::Comparison(compared(&document, watch)?),
         Task::Figure { id } => {
             if !watch.go_on(0.0, "designing and simulating the figure") {
                 return None;
@@ -85,16 +93,30 @@ pub fn perform(request: &JobRequest, watch: &Watch) -> Option<JobReply> {
     Some(reply(outcome))
 }
 
-fn figure(document: &crate::document::Document, id: &str, watch: &Watch) -> Result<FigureSpec, String> {
+/// Id of the figure of a sweep; no figure of a document can have it.
+pub(super) const TRADE_OFF: &str = "(trade-off)";
+
+fn figure(document: &Document, id: &str, watch: &Watch) -> Result<FigureSpec, String> {
+    if id == TRADE_OFF {
+        return sweep(document, watch);
+    }
     let recipe = document.figures.iter().find(|recipe| recipe.id == id);
     let recipe = recipe.ok_or_else(|| format!("the document has no figure \"{id}\""))?;
-    let model = document.model().map_err(|error| error.to_string())?;
-    let scenario = document.scenario(&model.system);
-    let problem = Problem {
-        model: &model,
-        design: &document.design,
-        scenario: &scenario,
-        tolerance: &document.tolerance,
+    let mut figure = document.draw(recipe, watch)?;
+    if let Ok(Subject::Model(model)) = document.subject() {
+        figure.notes = FreeReport::without_own(FreeReport::new(document, &model).as_ref(), figure.notes);
+    }
+    Ok(figure)
+}
+
+/// Designs along a sweep of the chosen design's own knob.
+fn sweep(document: &Document, watch: &Watch) -> Result<FigureSpec, String> {
+    let model = match document.subject().map_err(|error| error.to_string())? {
+        Subject::Model(model) => model,
+        Subject::Network(_) => {
+            return Err("a network that is too large to be written as one system is not swept".to_owned());
+        }
     };
-    compute_figure(&problem, recipe, watch)
+    let found = trade_off(&model, &document.design, &document.tolerance, watch);
+    Ok(trade_off_figure(&found.ok_or("cancelled")??, model.system.time))
 }

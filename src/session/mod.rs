@@ -1,10 +1,15 @@
 //! L4: the application without a screen: state, commands, the one writer, jobs and what is derived.
 
 mod analysis;
+mod analysis_network;
+mod analysis_properties;
 mod apply;
 mod command;
+mod comparison;
 mod derived;
+mod edit_compare;
 mod edit_coupling;
+mod edit_free;
 mod edit_lipschitz;
 mod edit_lmi;
 mod edit_network;
@@ -13,9 +18,12 @@ mod edit_plant;
 mod edit_scenario;
 mod edit_sensor;
 mod follow;
+mod follow_kept;
 mod follow_network;
+mod free_report;
 mod history;
 mod job;
+mod light;
 mod model_edits;
 mod network_edits;
 mod new_network;
@@ -25,9 +33,15 @@ mod state;
 mod update;
 
 pub use analysis::{Analysis, Light, MethodLight, Property, Simulation, analyse};
-pub use command::{Cell, Command, Edit, Fill, Place, Show, SignalList, Size, Tab, ThemeChoice};
+pub use command::{
+    Cell, Command, ComparedFigure, Edit, Fill, Place, Show, SignalList, Size, Tab, ThemeChoice,
+};
+pub use comparison::ComparisonView;
 pub use derived::Derived;
+pub use edit_compare::CompareEdit;
 pub use edit_coupling::coupling_forms;
+pub use edit_free::FreeEdit;
+pub use free_report::FreeReport;
 pub use history::History;
 pub use job::{JobReply, JobRequest, Outcome, Task, perform};
 pub use model_edits::{GivenPart, LipschitzEdit, LipschitzMatrix, LmiEdit, PartitionEdit, Share};

@@ -110,6 +110,11 @@ pub(super) fn drag(document: &mut Document, index: usize, to: Complex64) {
     move_pole(&mut document.design.poles, index, to, (used, time == TimeDomain::Discrete));
 }
 
+/// How many poles the chosen design takes, as far as its list has as many; `None` for one without poles.
+pub(super) fn used(document: &Document) -> Option<usize> {
+    needed(document).map(|(needed, _)| needed.min(document.design.poles.len()))
+}
+
 /// Moves one pole of the local observers in the plane.
 pub(super) fn drag_local(document: &mut Document, index: usize, to: Complex64) {
     let PlantData::Network(data) = &document.plant else { return };

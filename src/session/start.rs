@@ -1,6 +1,6 @@
 //! How a session begins: with the document of a link, of the last time, or with the first example.
 
-use super::command::{Place, Tab, ThemeChoice};
+use super::command::{ComparedFigure, Place, Tab, ThemeChoice};
 use super::state::{Session, View};
 use crate::document::{DocumentError, from_link_fragment, is_link_fragment, read_document};
 
@@ -63,6 +63,7 @@ pub fn view_text(view: &View) -> String {
         format!("tab {}", view.tab.title()),
         format!("theme {}", name(THEMES.iter().find(|(theme, _)| *theme == view.theme).map(|(_, n)| *n))),
         format!("place {}", name(PLACES.iter().find(|(place, _)| *place == view.place).map(|(_, n)| *n))),
+        format!("compared {}", view.compared.title()),
         format!("figure {}", view.figure.as_deref().unwrap_or_default()),
     ];
     lines.join("\n")
@@ -74,6 +75,10 @@ pub fn restored_view(text: &str) -> View {
     for (key, value) in text.lines().filter_map(|line| line.split_once(' ')) {
         match key {
             "tab" => view.tab = Tab::ALL.into_iter().find(|tab| tab.title() == value).unwrap_or_default(),
+            "compared" => {
+                let found = ComparedFigure::ALL.into_iter().find(|figure| figure.title() == value);
+                view.compared = found.unwrap_or_default();
+            }
             "theme" => {
                 view.theme =
                     THEMES.iter().find(|(_, n)| *n == value).map(|(theme, _)| *theme).unwrap_or_default();
@@ -132,6 +137,7 @@ mod tests {
                 theme: ThemeChoice::Dark,
                 place: Place::Observer,
                 figure: Some("figure 3".to_owned()),
+                compared: ComparedFigure::Gains,
             };
             assert_eq!(restored_view(&view_text(&view)), view, "{tab:?}");
         }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::command::{Cell, Place, SignalList, Tab, ThemeChoice};
+use super::command::{Cell, ComparedFigure, Place, SignalList, Tab, ThemeChoice};
 use super::history::History;
 use super::model_edits::{GivenPart, LipschitzMatrix};
 use super::network_edits::NetworkCell;
@@ -30,6 +30,8 @@ pub enum Field {
     Poles,
     /// The initial state of one component.
     Initial(usize),
+    /// The initial states of all components as one expression.
+    InitialFormula,
     /// A signal.
     Signal(SignalList, usize),
     /// A cell of the uncertainty: row, column, whether it is the frequency.
@@ -44,6 +46,12 @@ pub enum Field {
     Component(usize),
     /// The Lipschitz constant.
     LipschitzConstant,
+    /// The signal of a free variable.
+    FreeSignal(usize),
+    /// An entry of the feedback of the free variables: row, column.
+    FreeFeedback(usize, usize),
+    /// The name of a kept design, from zero.
+    KeptName(usize),
     /// A cell of a network's matrix.
     Network(NetworkCell),
     /// The number of subsystems of a network.
@@ -68,6 +76,8 @@ pub struct View {
     pub tab: Tab,
     /// The chosen figure of the document, by its id.
     pub figure: Option<String>,
+    /// The chosen figure of the comparison.
+    pub compared: ComparedFigure,
     /// The place that a narrow screen shows.
     pub place: Place,
     /// Light or dark.

@@ -27,6 +27,7 @@ pub fn update(session: &mut Session, command: Command) {
         Command::Show(show) => match show {
             Show::Tab(tab) => session.view.tab = tab,
             Show::Figure(id) => session.view.figure = Some(id),
+            Show::Compared(figure) => session.view.compared = figure,
             Show::Place(place) => session.view.place = place,
             Show::Theme(theme) => session.view.theme = theme,
         },

@@ -1,5 +1,6 @@
 //! L3: plant and observer together in time.
 
+pub mod comparison;
 mod constant;
 mod direct;
 mod error;
@@ -17,9 +18,11 @@ mod record;
 mod run;
 mod scenario;
 mod singularity;
+mod trade_off;
 mod trajectory;
 mod uncertainty;
 mod wide;
+mod wide_feedback;
 mod wide_run;
 
 pub use crate::numerics::integrate::{Signals, Silence};
@@ -30,6 +33,8 @@ pub use observed::Observed;
 pub use plant::{InitialState, Plant};
 pub use run::{LARGEST_STATE, MOST_SAMPLES, MOST_STATES, Span, simulate, simulate_observed};
 pub use scenario::Scenario;
+pub use trade_off::{Sweep, TradeOff, TradeOffPoint, trade_off};
 pub use trajectory::{Method, ObserverTrajectory, Trajectory, rms};
 pub use uncertainty::Uncertainty;
 pub use wide::{FreeVariables, WidePlant};
+pub use wide_feedback::{BoundingFeedback, FeedbackError, FreeMotion, MOST_FED_BACK};

@@ -18,7 +18,7 @@ use crate::system::{DescriptorSystem, LipschitzError, LipschitzTerm, Model, Sign
 /// v = v0(t) - feedback x
 /// ```
 ///
-/// Missing signals stand for zeros, as in a scenario; those that are too many wait.
+/// Missing signals and rows of the feedback stand for zeros, as in a scenario; those that are too many wait.
 ///
 /// # Shapes
 /// `signals`: one for each free variable; `feedback`: free variables x n.
@@ -101,6 +101,21 @@ impl WidePlant {
         self.directions.ncols()
     }
 
+    /// The free directions in words: `v1 = 0.7071 x3 - 0.7071 x4`.
+    pub fn named_directions(&self) -> Vec<String> {
+        let named = self.directions.column_iter().enumerate();
+        named
+            .map(|(i, direction)| format!("v{} = {}", i + 1, combination(direction.iter().copied())))
+            .collect()
+    }
+
+    /// What a person should know of the free states; `None` when there are none.
+    pub fn remark(&self) -> Option<String> {
+        let named = self.named_directions();
+        let count = named.len();
+        (count > 0).then(|| format!("the equations leave {count} free, as chosen: {}", named.join(", ")))
+    }
+
     /// The completed plant with the states `[x; d]` and the unknown inputs `[d_given; v0]`.
     ///
     /// # Errors
@@ -112,8 +127,7 @@ impl WidePlant {
         let (nv, nd) = (self.n_free(), self.unconstrained.ncols());
         let mut follow = self.directions.transpose();
         if let Some(feedback) = &free.feedback {
-            check_feedback(feedback, (nv, n))?;
-            follow += feedback;
+            follow += fitted(feedback, (nv, n))?;
         }
         let follow = follow * self.scale;
         let given = self.unconstrained.transpose() * self.scale;
@@ -156,9 +170,10 @@ impl WidePlant {
     }
 }
 
-fn check_feedback(feedback: &DMatrix<f64>, needed: (usize, usize)) -> Result<(), SimulationError> {
+/// A feedback with a row for each free variable: cut off at the end or filled with zeros.
+fn fitted(feedback: &DMatrix<f64>, needed: (usize, usize)) -> Result<DMatrix<f64>, SimulationError> {
     let what = "the feedback of the free variables".to_owned();
-    if feedback.shape() != needed {
+    if feedback.ncols() != needed.1 {
         return Err(SimulationError::Shape {
             what,
             found: feedback.shape(),
@@ -169,7 +184,27 @@ fn check_feedback(feedback: &DMatrix<f64>, needed: (usize, usize)) -> Result<(),
     if feedback.iter().any(|x| !x.is_finite()) {
         return Err(SimulationError::NotFinite { what });
     }
-    Ok(())
+    Ok(feedback.clone().resize(needed.0, needed.1, 0.0))
+}
+
+/// A linear combination of states in words: `0.7071 x3 - 0.7071 x4`, `-x2`.
+fn combination(coefficients: impl Iterator<Item = f64>) -> String {
+    const NOTHING: f64 = 1e-9;
+    let mut text = String::new();
+    for (j, x) in coefficients.enumerate().filter(|(_, x)| x.abs() > NOTHING) {
+        text.push_str(match (text.is_empty(), x < 0.0) {
+            (true, false) => "",
+            (true, true) => "-",
+            (false, false) => " + ",
+            (false, true) => " - ",
+        });
+        let size = format!("{:.4}", x.abs());
+        if size != "1.0000" {
+            text.extend([size.as_str(), " "]);
+        }
+        text.extend(["x", &(j + 1).to_string()]);
+    }
+    text
 }
 
 /// A nonlinearity of the plant as one of the completed plant, in the same states by name.
@@ -215,20 +250,23 @@ const TIE: f64 = 1e-9;
 
 /// The orthonormal basis of the same space that does not depend on the one that is given.
 ///
-/// The projection of the coordinate that lies closest to the space (the first of equals) comes first, with a positive
-/// entry there; then the same with what is left.
+/// The projection of the coordinate that lies closest to the space (the first of equals) is one, with a positive entry
+/// there; then the same with what is left. They are sorted by these coordinates, so that a new state behind the others
+/// adds its direction behind theirs.
 fn canonical(basis: &DMatrix<f64>) -> DMatrix<f64> {
     let mut projector = basis * basis.transpose();
-    let mut result = DMatrix::zeros(basis.nrows(), basis.ncols());
-    for mut column in result.column_iter_mut() {
+    let mut found = Vec::new();
+    for _ in 0..basis.ncols() {
         let largest = projector.diagonal().iter().fold(0.0, |l: f64, x| l.max(*x));
         let Some(pivot) = projector.diagonal().iter().position(|x| *x >= largest - TIE) else { break };
         let direction = projector.column(pivot) / largest.sqrt().max(f64::MIN_POSITIVE);
         let direction = direction.normalize();
         projector -= &direction * direction.transpose();
-        column.copy_from(&direction);
+        found.push((pivot, direction));
     }
-    result
+    found.sort_by_key(|(pivot, _)| *pivot);
+    let columns: Vec<DVector<f64>> = found.into_iter().map(|(_, direction)| direction).collect();
+    if columns.is_empty() { DMatrix::zeros(basis.nrows(), 0) } else { DMatrix::from_columns(&columns) }
 }
 
 #[cfg(test)]
@@ -295,6 +333,34 @@ mod tests {
         assert_eq!((combinations, algebraic), (1, 2), "one of two equations is too many");
         // the difference of both rows, normalised: (1 + 2) x1 / sqrt 2
         assert!((residual - 3.0 / 2.0_f64.sqrt()).abs() < 1e-14, "violated by {residual}");
+    }
+
+    #[test]
+    fn combinations_read_as_they_are_written() {
+        let words = |x: &[f64]| combination(x.iter().copied());
+        assert_eq!(
+            words(&[0.0, 0.0, 0.5_f64.sqrt(), -0.5_f64.sqrt()]),
+            "0.7071 x3 - 0.7071 x4",
+            "a difference"
+        );
+        assert_eq!(words(&[0.0, 1.0]), "x2", "a state itself");
+        assert_eq!(words(&[-1.0, 0.25, 1e-12]), "-x1 + 0.2500 x2", "rounding is not shown");
+    }
+
+    #[test]
+    fn rows_of_a_feedback_that_are_missing_are_zero_and_those_that_are_too_many_wait() {
+        // x1' = x1 + x2 + x3: two free states
+        let plant = model(dmatrix![1.0, 0.0, 0.0], dmatrix![1.0, 1.0, 1.0], DMatrix::zeros(1, 0));
+        let found = split(&plant).unwrap();
+        let completed = |rows: usize| {
+            let all = dmatrix![2.0, 0.0, 0.0; 3.0, 0.0, 0.0; 4.0, 0.0, 0.0];
+            let feedback = Some(all.rows(0, rows).into_owned());
+            let given = FreeVariables { signals: Vec::new(), feedback };
+            found.completed(&plant, &given).unwrap().system.A
+        };
+        assert_eq!(completed(3), completed(2), "the third row waits");
+        assert_eq!(completed(1)[(2, 0)], 0.0, "the second row is zero");
+        assert!(completed(2)[(2, 0)] > 0.0, "the second row acts");
     }
 
     #[test]

@@ -5,7 +5,10 @@ use nalgebra::{DMatrix, DVector};
 use super::joint::check;
 use super::run::check_vector;
 use super::scenario::values;
-use super::{InitialState, Observed, ObserverTrajectory, Scenario, SimulationError, Trajectory, WidePlant};
+use super::{
+    FreeVariables, InitialState, Observed, ObserverTrajectory, Scenario, SimulationError, Trajectory,
+    WidePlant,
+};
 use crate::numerics::{Tolerance, Watch, stack};
 use crate::observer::{Injection, LinearObserver};
 use crate::system::Model;
@@ -53,7 +56,7 @@ pub(super) fn run(
         }
         other => other,
     })?;
-    trajectory.remarks.extend(remarks(&wide, &trajectory, n));
+    trajectory.remarks.extend(remarks(&wide, &scenario.free, &trajectory, n));
     Ok(separated(trajectory, observers, n))
 }
 
@@ -82,16 +85,16 @@ fn estimating_both(observed: &Observed<'_>, q: usize) -> (LinearObserver, Option
 }
 
 /// What a person should know: the free variables, and unknown inputs that are not as given.
-fn remarks(wide: &WidePlant, trajectory: &Trajectory, n: usize) -> Vec<String> {
-    let mut remarks = Vec::new();
-    if wide.n_free() > 0 {
-        let named = wide.directions.column_iter().enumerate().map(|(i, direction)| {
-            let terms = direction.iter().enumerate().filter(|(_, x)| x.abs() > 1e-9);
-            let terms: Vec<String> = terms.map(|(j, x)| format!("{x:+.4} x{}", j + 1)).collect();
-            format!("v{} = {}", i + 1, terms.join(" "))
-        });
-        let named: Vec<String> = named.collect();
-        remarks.push(format!("the equations leave {} free, as chosen: {}", wide.n_free(), named.join(", ")));
+fn remarks(wide: &WidePlant, free: &FreeVariables, trajectory: &Trajectory, n: usize) -> Vec<String> {
+    let mut remarks: Vec<String> = wide.remark().into_iter().collect();
+    let rows = free.feedback.as_ref().map_or(0, DMatrix::nrows);
+    for (given, what) in [(free.signals.len(), "signals"), (rows, "rows of the feedback")] {
+        if given > wide.n_free() {
+            let count = wide.n_free();
+            remarks.push(format!(
+                "of {given} {what} for free variables the first {count} count, the others wait"
+            ));
+        }
     }
     if wide.constrained > 0 {
         let q = trajectory.x.nrows() - n;

@@ -118,7 +118,9 @@ fn checks(workspace: &Workspace, browser: &str) -> Vec<Check> {
         Check { name: "documentation", slow: true, work: Work::Commands(vec![documentation]) },
         quick(
             "tests in a browser",
-            &[&format!("test --locked --target {WASM} --test web --test paper_000 --test paper_002")],
+            &[&format!(
+                "test --locked --target {WASM} --test web --test paper_000 --test paper_001 --test paper_002"
+            )],
         ),
         Check { name: "build of the page", slow: true, work: Work::Page },
         Check { name: "the page in a browser", slow: true, work: Work::Commands(vec![page_test]) },

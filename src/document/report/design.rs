@@ -18,10 +18,7 @@ pub(super) fn design(assessment: &Assessment) -> Value {
     let verdict = match &assessment.outcome {
         Ok(design) if design.verification.verified() => "verified",
         Ok(_) => "not verified",
-        Err(error) if error.is_bad_input() => "bad input",
-        Err(DesignError::GaveUp(_) | DesignError::Numerics(_)) => "undecided",
-        Err(DesignError::Cancelled) => "cancelled",
-        Err(_) => "does not exist",
+        Err(error) => verdict_of(error),
     };
     put("verdict", json!(verdict));
     put("title", json!(assessment.outcome.as_ref().ok().map(|design| &design.title)));
@@ -34,6 +31,16 @@ pub(super) fn design(assessment: &Assessment) -> Value {
         Err(error) => missing(&mut map, error),
     }
     Value::Object(map)
+}
+
+/// Why there is no design, in a word.
+pub(super) fn verdict_of(error: &DesignError) -> &'static str {
+    match error {
+        error if error.is_bad_input() => "bad input",
+        DesignError::GaveUp(_) | DesignError::Numerics(_) => "undecided",
+        DesignError::Cancelled => "cancelled",
+        _ => "does not exist",
+    }
 }
 
 fn missing(map: &mut Map<String, Value>, error: &DesignError) {

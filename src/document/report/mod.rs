@@ -4,8 +4,10 @@
 //! no number for is the text `"inf"`, `"-inf"` or `"nan"` (a gap is `"inf"` when nothing is left below it). Complex
 //! numbers are `[real, imaginary]`, matrices are lists of rows. Keys keep their order: same document, same bytes.
 
+mod comparison;
 mod condition;
 mod design;
+mod errata;
 mod figures;
 mod properties;
 mod trajectory;
@@ -18,7 +20,9 @@ use super::model::Document;
 use super::pretty::pretty;
 use crate::numerics::Complex64;
 use crate::observer::{Assessment, Condition};
+use crate::paper::Erratum;
 use crate::simulation::Trajectory;
+use crate::simulation::comparison::Comparison;
 use crate::system::{DescriptorSystem, Model, TimeDomain};
 
 pub use figures::{FigureFiles, WrittenFigure};
@@ -64,6 +68,20 @@ pub fn figures_report(document: &Document, figures: &[WrittenFigure]) -> String 
     put_command(&mut map, "figures", document);
     map.insert("figures".to_owned(), figures.iter().map(figures::figure).collect());
     pretty(&Value::Object(map))
+}
+
+/// Report of `descry compare`: the chosen design and those that are kept beside it.
+pub fn comparison_report(document: &Document, comparison: &Comparison) -> String {
+    let mut map = Map::new();
+    put_command(&mut map, "compare", document);
+    comparison::put(&mut map, comparison);
+    pretty(&Value::Object(map))
+}
+
+/// Report of `descry errata`: misprints with what proves them.
+pub fn errata_report(found: &[&Erratum]) -> String {
+    let listed: Vec<Value> = found.iter().map(|erratum| errata::erratum(erratum)).collect();
+    pretty(&json!({ "descry_report": REPORT_VERSION, "command": "errata", "errata": listed }))
 }
 
 fn put_command(map: &mut Map<String, Value>, command: &str, document: &Document) {

@@ -191,7 +191,7 @@ fn listed(data: &NetworkData) -> String {
     };
     let mut text = entries.iter().take(SHOWN).map(one).collect::<Vec<_>>().join(", ");
     if entries.len() > SHOWN {
-        text.push_str(&format!(" and {} more", entries.len() - SHOWN));
+        text.extend([" and ", &(entries.len() - SHOWN).to_string(), " more"]);
     }
     if text.is_empty() { "nothing is measured globally: all entries are zero".to_owned() } else { text }
 }

@@ -3,13 +3,20 @@
 use egui::{RichText, Sense, Stroke, Ui, vec2};
 
 use super::super::{Output, Widgets, formula, network, theme};
+use super::errata;
+use crate::document::Document;
 use crate::numerics::RankDecision;
-use crate::observer::{Condition, Evidence, Verdict, show as show_number};
-use crate::paper::errata;
+use crate::observer::{Condition, Evidence, Verdict, Witness, show as show_number};
 use crate::session::Edit;
 
 /// Draws all conditions of an assessment.
-pub(super) fn show(ui: &mut Ui, conditions: &[Condition], widgets: &mut Widgets, out: &mut Output) {
+pub(super) fn show(
+    ui: &mut Ui,
+    document: &Document,
+    conditions: &[Condition],
+    widgets: &mut Widgets,
+    out: &mut Output,
+) {
     let mut explained = false;
     for condition in conditions {
         if condition.id.starts_with("003-T2") && !explained {
@@ -22,12 +29,12 @@ pub(super) fn show(ui: &mut Ui, conditions: &[Condition], widgets: &mut Widgets,
         let fill = ui.visuals().faint_bg_color;
         egui::Frame::new().fill(fill).corner_radius(5.0).inner_margin(7.0).show(ui, |ui| {
             ui.set_min_width(ui.available_width());
-            one(ui, condition, widgets, out);
+            one(ui, document, condition, widgets, out);
         });
     }
 }
 
-fn one(ui: &mut Ui, condition: &Condition, widgets: &mut Widgets, out: &mut Output) {
+fn one(ui: &mut Ui, document: &Document, condition: &Condition, widgets: &mut Widgets, out: &mut Output) {
     let colour = theme::verdict(ui, condition.verdict);
     ui.horizontal_wrapped(|ui| {
         lamp(ui, condition.verdict);
@@ -53,7 +60,7 @@ fn one(ui: &mut Ui, condition: &Condition, widgets: &mut Widgets, out: &mut Outp
     }
     if widgets.open_condition.as_deref() == Some(condition.id.as_str()) || condition.verdict == Verdict::Fails
     {
-        why(ui, condition, out);
+        why(ui, document, condition, out);
     }
 }
 
@@ -78,11 +85,9 @@ fn lamp(ui: &mut Ui, verdict: Verdict) {
     }
 }
 
-fn why(ui: &mut Ui, condition: &Condition, out: &mut Output) {
+fn why(ui: &mut Ui, document: &Document, condition: &Condition, out: &mut Output) {
     if let Some(witness) = &condition.witness {
-        let names = witness.main_coordinates().join(", ");
-        let at = witness.s.map_or("An impulse".to_owned(), |s| format!("The mode s = {}", show_number(s)));
-        ui.label(RichText::new(format!("{at} along {names} is seen by no sensor.")).color(theme::bad(ui)));
+        ui.label(RichText::new(unseen(witness)).color(theme::bad(ui)));
         let entries: Vec<String> = witness
             .coordinates
             .iter()
@@ -111,16 +116,23 @@ fn why(ui: &mut Ui, condition: &Condition, out: &mut Output) {
         evidence_row(ui, evidence);
     }
     let paper = condition.id.split('-').next().unwrap_or_default();
-    for erratum in errata(paper).filter(|erratum| erratum.concerns == condition.id) {
-        formula::remark(
-            ui,
-            &format!(
-                "Misprint, {}: printed \"{}\", correct \"{}\". {}",
-                erratum.place, erratum.printed, erratum.correct, erratum.proof
-            ),
-        );
-    }
+    errata::beside(ui, (paper, &condition.id), document);
     formula::remark(ui, &condition.source);
+}
+
+/// What a witness shows, in a sentence.
+fn unseen(witness: &Witness) -> String {
+    let names = witness.main_coordinates().join(", ");
+    let starts = |word: &str| witness.main_coordinates().iter().any(|name| name.starts_with(word));
+    match witness.s {
+        Some(s) => format!("The mode s = {} along {names} is seen by no sensor.", show_number(s)),
+        None if starts("equation") => {
+            let of = if names.contains(", ") { "A combination of " } else { "The " };
+            format!("{of}{names} determines neither an algebraic state nor an unknown input.")
+        }
+        None if starts("d") => format!("A sudden change along {names} is not seen at once by any sensor."),
+        None => format!("An impulse along {names} is seen by no sensor."),
+    }
 }
 
 /// The state that a remedy proposes to measure, from zero.
@@ -202,4 +214,26 @@ fn singular_values(ui: &mut Ui, decision: &RankDecision) {
         decision.threshold,
         gap(decision.gap)
     ));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numerics::Complex64;
+
+    #[test]
+    fn a_witness_is_a_sentence_of_what_it_shows() {
+        let witness = |s: Option<f64>, name: &str| Witness {
+            s: s.map(Complex64::from),
+            direction: vec![Complex64::from(1.0)],
+            coordinates: vec![name.to_owned()],
+        };
+        assert_eq!(unseen(&witness(Some(2.0), "x1")), "The mode s = 2 along x1 is seen by no sensor.");
+        assert_eq!(unseen(&witness(None, "x1")), "An impulse along x1 is seen by no sensor.");
+        assert!(unseen(&witness(None, "d1")).starts_with("A sudden change along d1"), "an unknown input");
+        assert!(
+            unseen(&witness(None, "equation 3")).starts_with("The equation 3 determines neither"),
+            "an equation"
+        );
+    }
 }

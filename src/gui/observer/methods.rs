@@ -44,6 +44,40 @@ pub(super) fn tiles(ui: &mut Ui, session: &Session, derived: &Derived, out: &mut
     });
 }
 
+/// Draws a foldable list of all methods with their lights, in words: hovering is not possible everywhere.
+pub(super) fn reasons(ui: &mut Ui, derived: &Derived) {
+    let lights = derived.analysis().map(|analysis| analysis.methods.as_slice()).unwrap_or_default();
+    if lights.is_empty() {
+        return;
+    }
+    let exist = lights.iter().filter(|light| matches!(light.light, Light::Exists | Light::Near)).count();
+    let title = format!("Why: {exist} of {} methods exist", lights.len());
+    egui::CollapsingHeader::new(title).id_salt("methods").show_unindented(ui, |ui| {
+        for found in lights {
+            let colour = theme::light(ui, found.light);
+            ui.horizontal_wrapped(|ui| {
+                let (_, dot) = ui.allocate_space(vec2(10.0, 12.0));
+                if found.light == Light::Missing {
+                    ui.painter().circle_stroke(dot.center(), 4.0, egui::Stroke::new(1.5, colour));
+                } else {
+                    ui.painter().circle_filled(dot.center(), 4.5, colour);
+                }
+                ui.strong(found.method.title());
+                ui.colored_label(colour, word(found.light));
+            });
+            ui.label(RichText::new(sentence(&found.why)).small());
+            ui.add_space(2.0);
+        }
+    });
+}
+
+/// A reason as a sentence of its own.
+fn sentence(why: &str) -> String {
+    let mut letters = why.chars();
+    let first = letters.next().map(char::to_uppercase).into_iter().flatten();
+    first.chain(letters).chain(['.']).collect()
+}
+
 fn word(light: Light) -> &'static str {
     match light {
         Light::Exists => "exists",
@@ -73,6 +107,15 @@ pub(super) fn orders(ui: &mut Ui, session: &Session, out: &mut Output) {
 
 /// Name and meaning of an order.
 fn order_words(method: Method, order: Order) -> (&'static str, &'static str) {
+    match (method, order) {
+        (Method::InputDecoupled, Order::Full) => {
+            return ("Full", "The paper's observer, of order rank E; needs (A1), (A2) and (A3).");
+        }
+        (Method::InputDecoupled, Order::General) => {
+            return ("General", "Not in the paper: of the same order, and does not need (A1).");
+        }
+        _ => {}
+    }
     match (order, method.uses_lmi()) {
         (Order::Reduced, false) => {
             ("Reduced", "What the outputs already tell is not estimated again; best conditioned.")

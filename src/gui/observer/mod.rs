@@ -4,6 +4,7 @@ mod audit;
 mod badge;
 mod conditions;
 mod demands;
+mod errata;
 mod lmi_result;
 mod methods;
 mod poles;
@@ -12,8 +13,8 @@ mod rows;
 
 use egui::{RichText, Ui};
 
-use super::{Output, Widgets, network, theme};
-use crate::observer::Method;
+use super::{Output, Widgets, compare, network, theme};
+use crate::observer::{Assessment, Method};
 use crate::session::{Derived, Session};
 
 /// Draws the place of the observer.
@@ -21,11 +22,13 @@ pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Wid
     ui.add_space(theme::ITEM_GAP);
     ui.label(RichText::new("Observer").heading());
     methods::tiles(ui, session, derived, out);
+    methods::reasons(ui, derived);
     methods::orders(ui, session, out);
     badge::stale(ui, session, derived);
     let assessment = match derived.analysis().map(|analysis| &analysis.assessment) {
         Some(Ok(assessment)) => {
             badge::show(ui, session, assessment, out);
+            compare::keep(ui, session, out);
             Some(assessment)
         }
         Some(Err(why)) => {
@@ -53,15 +56,22 @@ pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Wid
         }
         poles::show(ui, session, derived, widgets, out);
     }
-    let Some(assessment) = assessment else { return };
+    if let Some(assessment) = assessment {
+        found(ui, session, assessment, widgets, out);
+    }
+    errata::show(ui, session.document().design.method);
+}
+
+/// Draws the conditions and the design.
+fn found(ui: &mut Ui, session: &Session, assessment: &Assessment, widgets: &mut Widgets, out: &mut Output) {
     if !assessment.conditions.is_empty() {
         ui.separator();
         ui.label(RichText::new("Conditions").strong());
-        conditions::show(ui, &assessment.conditions, widgets, out);
+        conditions::show(ui, session.document(), &assessment.conditions, widgets, out);
     }
     if let Ok(design) = &assessment.outcome {
         ui.separator();
         ui.label(RichText::new("Result").strong());
-        result::show(ui, assessment.choice.method, design);
+        result::show(ui, session.document(), assessment.choice.method, design);
     }
 }

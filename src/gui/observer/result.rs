@@ -3,18 +3,19 @@
 use egui::{RichText, Ui};
 
 use super::super::{formula, theme};
-use crate::document::{MatrixSyntax, matrix_to_text};
+use super::errata;
+use crate::document::{Document, MatrixSyntax, matrix_to_text};
 use crate::observer::{Design, Method, NamedMatrix};
-use crate::paper::errata;
+use crate::paper::printed;
 
 /// Draws the gains, the checks and the notes of a design.
-pub(super) fn show(ui: &mut Ui, method: Method, design: &Design) {
+pub(super) fn show(ui: &mut Ui, document: &Document, method: Method, design: &Design) {
     for note in &design.notes {
         ui.label(RichText::new(note).small().color(theme::near(ui)));
     }
     egui::CollapsingHeader::new("Gains").default_open(true).show(ui, |ui| {
         for matrix in &design.matrices {
-            named_matrix(ui, method, matrix);
+            named_matrix(ui, document, method, matrix);
         }
         formula::remark(ui, equations(method));
     });
@@ -68,7 +69,7 @@ const SHOWN: usize = 12;
 /// Rows and columns of a larger one that are shown when a person opens it.
 const OPENED: usize = 40;
 
-fn named_matrix(ui: &mut Ui, method: Method, matrix: &NamedMatrix) {
+fn named_matrix(ui: &mut Ui, document: &Document, method: Method, matrix: &NamedMatrix) {
     let (rows, columns) = matrix.value.shape();
     let large = rows.max(columns) > SHOWN;
     ui.horizontal(|ui| {
@@ -88,11 +89,34 @@ fn named_matrix(ui: &mut Ui, method: Method, matrix: &NamedMatrix) {
         egui::CollapsingHeader::new(format!("entries of {}", matrix.name))
             .id_salt(("named-large", &matrix.name))
             .default_open(false)
-            .show(ui, |ui| entries(ui, matrix));
-    } else {
-        entries(ui, matrix);
+            .show(ui, |ui| {
+                egui::ScrollArea::horizontal()
+                    .id_salt(("named", &matrix.name))
+                    .auto_shrink([false, true])
+                    .show(ui, |ui| entries(ui, matrix));
+            });
+        return;
     }
-    misprints(ui, method, matrix);
+    // a local observer's matrix carries the name of its subsystem: `N (first)`
+    let letter = matrix.name.split(" (").next().unwrap_or_default();
+    let known = printed(method.paper(), letter, &matrix.value);
+    egui::ScrollArea::horizontal().id_salt(("named", &matrix.name)).auto_shrink([false, true]).show(
+        ui,
+        |ui| match known {
+            None => entries(ui, matrix),
+            Some(known) => {
+                ui.horizontal_top(|ui| {
+                    errata::printed(ui, known, digits);
+                    ui.separator();
+                    ui.vertical(|ui| {
+                        formula::remark(ui, "ours");
+                        entries(ui, matrix);
+                    });
+                });
+            }
+        },
+    );
+    errata::beside(ui, (method.paper(), letter), document);
 }
 
 /// The entries of a matrix, of a very large one the first.
@@ -101,35 +125,16 @@ fn entries(ui: &mut Ui, matrix: &NamedMatrix) {
     if rows.max(columns) > OPENED {
         formula::remark(ui, &format!("the first {OPENED} rows and columns; copying takes all"));
     }
-    egui::ScrollArea::horizontal().id_salt(("named", &matrix.name)).auto_shrink([false, true]).show(
-        ui,
-        |ui| {
-            egui::Grid::new(("named-grid", &matrix.name)).spacing([14.0, 2.0]).show(ui, |ui| {
-                for row in matrix.value.row_iter().take(OPENED) {
-                    for value in row.iter().take(OPENED) {
-                        let text = RichText::new(digits(*value)).monospace();
-                        let text = if value.abs() < 1e-12 { text.color(theme::faint(ui)) } else { text };
-                        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.label(text));
-                    }
-                    ui.end_row();
-                }
-            });
-        },
-    );
-}
-
-fn misprints(ui: &mut Ui, method: Method, matrix: &NamedMatrix) {
-    // a local observer's matrix carries the name of its subsystem: `N (first)`
-    let letter = matrix.name.split(" (").next().unwrap_or_default();
-    for erratum in errata(method.paper()).filter(|erratum| erratum.concerns == letter) {
-        formula::remark(
-            ui,
-            &format!(
-                "Misprint, {}: printed \"{}\", correct \"{}\"",
-                erratum.place, erratum.printed, erratum.correct
-            ),
-        );
-    }
+    egui::Grid::new(("named-grid", &matrix.name)).spacing([14.0, 2.0]).show(ui, |ui| {
+        for row in matrix.value.row_iter().take(OPENED) {
+            for value in row.iter().take(OPENED) {
+                let text = RichText::new(digits(*value)).monospace();
+                let text = if value.abs() < 1e-12 { text.color(theme::faint(ui)) } else { text };
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.label(text));
+            }
+            ui.end_row();
+        }
+    });
 }
 
 /// Four decimals, or powers of ten where they would not show the number.

@@ -93,15 +93,13 @@ fn time_and_sizes(ui: &mut Ui, data: &DescriptorData, out: &mut Output) {
         }
     });
     let [e, _, b, c, d, _] = data.matrices.each_ref().map(EntryMatrix::shape);
-    let mut sizes = vec![
+    let sizes = [
         (Size::States, "states", e.1),
+        (Size::Equations, "equations", e.0),
         (Size::Inputs, "known inputs", b.1),
         (Size::Outputs, "outputs", c.0),
         (Size::UnknownInputs, "unknown inputs", d.1),
     ];
-    if e.0 != e.1 {
-        sizes.insert(1, (Size::Equations, "equations", e.0));
-    }
     egui::Grid::new("sizes").num_columns(2).spacing([theme::ITEM_GAP, 4.0]).show(ui, |ui| {
         for (k, (of, name, count)) in sizes.into_iter().enumerate() {
             stepper(ui, of, name, count, out);
@@ -134,7 +132,12 @@ pub(super) fn steps(ui: &mut Ui, label: &str, shown: &str, count: usize) -> Opti
                         ui.label(RichText::new(count.to_string()).strong());
                     }
                 }
-                ui.label(RichText::new(shown).small());
+                let response = ui.label(RichText::new(shown).small());
+                if label == "states" || label == "equations" {
+                    response.on_hover_text(
+                        "While there are as many equations as states, a new state brings its equation.",
+                    );
+                }
             });
         },
     );

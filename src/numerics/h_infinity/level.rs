@@ -5,7 +5,7 @@ use num_complex::Complex64;
 
 use super::StateSpace;
 use crate::numerics::Block::{Minus, Of};
-use crate::numerics::{NumericsError, StabilityRegion, block_matrix, eigenvalues};
+use crate::numerics::{NumericsError, StabilityRegion, block_matrix, eigenvalues, svd};
 
 /// An eigenvalue further from the axis than this part of its size is no crossing, whatever rounding did to it.
 const WIDTH: f64 = 0.1;
@@ -18,7 +18,12 @@ const ROUNDING: f64 = 1e-6;
 pub(super) struct Level {
     system: StateSpace,
     map: Map,
+    /// Gains at infinite frequency of the half plane, all of them.
+    at_infinity: Vec<f64>,
 }
+
+/// Relative distance from a gain at infinity within which `R` and `S` are nearly singular.
+const NEAR: f64 = 1e-2;
 
 /// From the frequencies of the half plane to those of the system.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,12 +45,22 @@ impl Level {
         modes: &[Complex64],
     ) -> Result<Self, NumericsError> {
         if region == StabilityRegion::LeftHalfPlane {
-            return Ok(Self { system: system.clone(), map: Map::Same });
+            return Self::of(system.clone(), Map::Same);
         }
         let distance = |from: f64| modes.iter().map(|z| (z - from).norm()).fold(f64::INFINITY, f64::min);
         let map = if distance(-1.0) >= distance(1.0) { Map::AtMinusOne } else { Map::AtOne };
         let sign = if map == Map::AtOne { -1.0 } else { 1.0 };
-        Ok(Self { system: bilinear(system, sign)?, map })
+        Self::of(bilinear(system, sign)?, map)
+    }
+
+    fn of(system: StateSpace, map: Map) -> Result<Self, NumericsError> {
+        let at_infinity = svd(&system.d)?.s;
+        Ok(Self { system, map, at_infinity })
+    }
+
+    /// Whether a level is nearly one of the gains at infinity.
+    pub(super) fn is_near_infinity(&self, level: f64) -> bool {
+        self.at_infinity.iter().any(|gain| (gain - level).abs() <= NEAR * level)
     }
 
     /// Frequencies that may have gain `level`: a superset of the crossings, always with both ends.

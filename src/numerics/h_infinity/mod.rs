@@ -52,6 +52,10 @@ pub enum HInfinityError {
 /// are apart, well above the rounding of eigenvalues.
 const BRACKET: f64 = 1e-10;
 
+/// Further steps above a lower bound that is nearly the gain at infinite frequency, where small steps make the Hamiltonian
+/// matrix so large that rounding hides its crossings.
+const WIDE_STEPS: [f64; 4] = [1e-3, 1e-4, 1e-6, 1e-8];
+
 /// Levels after which the search gives up; each one squares the remaining error, five are usual.
 const MOST_LEVELS: usize = 60;
 
@@ -165,7 +169,13 @@ fn search(
         if upper == 0.0 {
             return Ok(HInfinityNorm { norm: 0.0, frequency: best.frequency, lower: 0.0, upper: 0.0 });
         }
-        for frequency in with_midpoints(level.crossings(upper)?) {
+        let mut found = vec![level.crossings(upper)?];
+        if level.is_near_infinity(upper) {
+            for step in WIDE_STEPS {
+                found.push(level.crossings(best.value * (1.0 + step))?);
+            }
+        }
+        for frequency in found.into_iter().flat_map(with_midpoints) {
             best = best.larger(response.at(frequency)?);
         }
         if best.value <= upper {

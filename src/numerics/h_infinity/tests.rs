@@ -287,3 +287,38 @@ fn slicot_finds_the_same_norms_and_peaks() {
         }
     }
 }
+
+#[test]
+fn a_peak_hardly_above_the_gain_at_infinity_is_found() {
+    // 1 + h 2 zeta omega s / (s^2 + 2 zeta omega s + omega^2): 1 at infinity and at rest, 1 + h at omega
+    for h in [0.5, 1e-2, 1e-3, 1e-5, 1e-7] {
+        for (zeta, omega) in [(0.5, 1.0), (0.1, 30.0), (2.0, 1e-2)] {
+            let damping = 2.0 * zeta * omega;
+            let system: Matrices = (
+                dmatrix![0.0, 1.0; -omega * omega, -damping],
+                dmatrix![0.0; 1.0],
+                dmatrix![0.0, h * damping],
+                dmatrix![1.0],
+            );
+            let found = norm_of(&system, HALF_PLANE).unwrap();
+            close(found.norm, 1.0 + h, 1e-9, &format!("h = {h}, zeta = {zeta}, omega = {omega}"));
+        }
+    }
+}
+
+#[test]
+fn a_discrete_peak_hardly_above_the_gain_at_the_far_end_is_found() {
+    // an observer whose gain at z = -1 is 21.825 288; SLICOT (AB13DD) finds 21.842 720 93 at 2.610 229
+    let system: Matrices = (
+        dmatrix![0.9, -26.992_305_333_374_915, -84.200_841_931_891, -0.1;
+                 0.05, -1.063_806_563_506_732_6, -3.154_259_378_884_890_3, 0.0;
+                 0.0, -0.000_467_974_486_852_700_4, 0.263_806_563_506_279_96, 0.0;
+                 0.0, 74.370_763_568_774_25, 323.239_857_268_230_2, 1.0],
+        dmatrix![13.496_152_666_687_458; 1.006_903_281_753_366_3; 0.000_233_987_243_426_350_2; -37.185_381_784_387_125],
+        dmatrix![1.0, 0.0, 0.0, 0.0; 0.0, 1.0, 0.0, 0.0; 0.0, 0.0, 1.0, 0.0],
+        dmatrix![0.0; 0.5; 0.0],
+    );
+    let found = norm_of(&system, DISK).unwrap();
+    close(found.norm, 21.842_720_930_007_32, 1e-8, "the peak");
+    close(found.frequency, 2.610_229_377_207_603_7, 1e-4, "its frequency");
+}

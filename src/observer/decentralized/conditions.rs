@@ -6,8 +6,8 @@ use super::conditions_modes::{fill_detectability, fixed_modes};
 use super::decoupled::scaled_to;
 use super::setup::{SetupError, check_counts, exact_columns};
 use super::{Decoupled, LocalProblem, Setup, local_problems};
-use crate::numerics::{RankDecision, Tolerance, rank, stack};
-use crate::observer::{Condition, DesignChoice, Evidence, Formula, Verdict};
+use crate::numerics::{Tolerance, rank, stack};
+use crate::observer::{Condition, DesignChoice, Evidence, Verdict};
 use crate::system::Model;
 use crate::system::properties::PropertyError;
 
@@ -98,23 +98,7 @@ pub fn local_conditions(
 }
 
 fn condition(id: &str, label: &str, name: &str, formula: &str) -> Condition {
-    Condition {
-        id: format!("000-{id}"),
-        label: label.to_owned(),
-        name: name.to_owned(),
-        formula: Formula::parse(formula),
-        source: format!("{PAPER}, {label}"),
-        verdict: Verdict::Undecided,
-        summary: String::new(),
-        evidence: Vec::new(),
-        witness: None,
-        remedies: Vec::new(),
-        needed: true,
-    }
-}
-
-fn evidence(of: &str, decision: RankDecision, required: usize) -> Evidence {
-    Evidence::Rank { of: of.to_owned(), decision, required }
+    Condition::asked((format!("000-{id}"), label), name, formula, format!("{PAPER}, {label}"))
 }
 
 /// The subsystem that all conditions ask about.
@@ -166,8 +150,8 @@ impl Ask<'_> {
             result.remedies.extend(sensors);
         }
         result.evidence = vec![
-            evidence("D_i1, columns scaled to norm 1", found.of_columns, columns),
-            evidence(
+            Evidence::rank("D_i1, columns scaled to norm 1", found.of_columns, columns),
+            Evidence::rank(
                 "[E_i D_i1; Phi_i A_ii 0; H_i 0], blocks scaled to norm 1",
                 found.decision,
                 found.needed,
@@ -209,7 +193,7 @@ impl Ask<'_> {
             decision.rank,
             decision.smallest()
         );
-        result.evidence = vec![evidence("Theta_i, blocks scaled to norm 1", decision, n)];
+        result.evidence = vec![Evidence::rank("Theta_i, blocks scaled to norm 1", decision, n)];
         Ok(result)
     }
 
@@ -247,7 +231,8 @@ impl Ask<'_> {
         let mut result = self.completion_statement();
         result.verdict = Verdict::of(decision.rank == n, decision.fragile);
         result.summary = format!("rank {} of {n} needed; order {}", decision.rank, setup.family.order());
-        result.evidence = vec![evidence("[R_i; Phi_i A_ii; H_i], blocks scaled to norm 1", decision, n)];
+        result.evidence =
+            vec![Evidence::rank("[R_i; Phi_i A_ii; H_i], blocks scaled to norm 1", decision, n)];
         Ok(result)
     }
 

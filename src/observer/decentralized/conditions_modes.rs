@@ -2,8 +2,8 @@
 
 use super::Setup;
 use super::conditions::Ask;
-use crate::numerics::{Complex64, StabilityRegion};
-use crate::observer::{Condition, DesignChoice, Evidence, PointEvidence, Verdict, Witness, show};
+use crate::numerics::StabilityRegion;
+use crate::observer::{Condition, DesignChoice, Evidence, PointEvidence, Verdict, show};
 use crate::system::properties::ModeCondition;
 
 /// Fills the verdict on strong detectability from its evidence.
@@ -13,42 +13,17 @@ pub(super) fn fill_detectability(
     found: &ModeCondition,
     exact: &[usize],
 ) {
-    result.verdict = Verdict::of(found.holds(), found.fragile());
-    let points: Vec<PointEvidence> = found
-        .modes
-        .iter()
-        .map(|mode| PointEvidence {
-            s: mode.s,
-            multiplicity: mode.multiplicity,
-            distance: mode.sigma,
-            loses_rank: true,
-            stable: found.region.contains(mode.s, found.margin),
-        })
-        .collect();
-    let violation = found.violations().next();
-    result.summary = match (&found.free_direction, violation, points.len()) {
-        (Some(_), _, _) => format!("rank {} < {} for every s", found.normal_rank, found.needed),
-        (None, Some(mode), _) => format!("rank is lost at s = {}, which is not stable", show(mode.s)),
-        (None, None, 0) => "no invariant zeros: every mode of the full order can be moved".to_owned(),
-        (None, None, _) => {
-            let zeros: Vec<String> = found.modes.iter().map(|mode| show(mode.s)).collect();
-            format!("invariant zeros {}, all stable: modes of every full-order observer", zeros.join(", "))
-        }
-    };
-    let direction = match (&found.free_direction, violation) {
-        (Some(free), _) => Some((None, free.iter().map(|x| Complex64::from(*x)).collect())),
-        (None, Some(mode)) => Some((Some(mode.s), mode.direction.clone())),
-        (None, None) => None,
-    };
     let first = ask.problem.first_state;
     let states = (1..=ask.problem.n_states()).map(|i| format!("x{}", first + i));
     let couplings = exact.iter().map(|j| ask.problem.source_name(ask.problem.sources[*j]));
-    result.witness = direction.map(|(s, direction)| Witness {
-        s,
-        direction,
-        coordinates: states.chain(couplings).collect(),
+    let coordinates = states.chain(couplings).collect();
+    result.decide_on_modes(found, "[sE_i-A_ii -D_i1; H_i 0]", coordinates, |modes| {
+        if modes.is_empty() {
+            return "no invariant zeros: every mode of the full order can be moved".to_owned();
+        }
+        let zeros: Vec<String> = modes.iter().map(|mode| show(mode.s)).collect();
+        format!("invariant zeros {}, all stable: modes of every full-order observer", zeros.join(", "))
     });
-    result.evidence.push(Evidence::Points { of: "[sE_i-A_ii -D_i1; H_i 0]".to_owned(), points });
 }
 
 /// The modes of the chosen order that no free gain moves, and the fastest decay that they allow.

@@ -6,10 +6,10 @@ use super::parameterisation::Parameterisation;
 use super::plant::Plant;
 use super::rows::Rows;
 use crate::numerics::{
-    Complex64, NumericsError, PbhMode, RankDecision, StabilityRegion, Tolerance, observable_quotient, rank,
-    stack, subspaces,
+    Complex64, NumericsError, PbhMode, StabilityRegion, Tolerance, observable_quotient, rank, stack,
+    subspaces,
 };
-use crate::observer::{Condition, DesignChoice, Evidence, Formula, PointEvidence, Verdict, Witness, show};
+use crate::observer::{Condition, DesignChoice, Evidence, PointEvidence, Verdict, Witness, show};
 use crate::system::properties::PropertyError;
 use crate::system::{Model, SampleRegion, SampledConstant};
 
@@ -52,23 +52,7 @@ pub fn conditions(
 }
 
 fn condition(id: &str, label: &str, name: &str, formula: &str) -> Condition {
-    Condition {
-        id: format!("002-{id}"),
-        label: label.to_owned(),
-        name: name.to_owned(),
-        formula: Formula::parse(formula),
-        source: format!("{PAPER}, {label}"),
-        verdict: Verdict::Undecided,
-        summary: String::new(),
-        evidence: Vec::new(),
-        witness: None,
-        remedies: Vec::new(),
-        needed: true,
-    }
-}
-
-fn evidence(of: &str, decision: &RankDecision, required: usize) -> Evidence {
-    Evidence::Rank { of: of.to_owned(), decision: decision.clone(), required }
+    Condition::asked((format!("002-{id}"), label), name, formula, format!("{PAPER}, {label}"))
 }
 
 /// Assumption 1: differential equations, algebraic equations and outputs determine the state.
@@ -86,7 +70,10 @@ fn assumption_1(plant: &Plant, tolerance: &Tolerance) -> Result<Condition, Numer
         found.rank.smallest(),
         plant.Phi.nrows()
     );
-    result.evidence = vec![evidence("[E; Phi A; C]", &found.rank, n), evidence("E", &of_e, of_e.rank)];
+    result.evidence = vec![
+        Evidence::rank("[E; Phi A; C]", found.rank.clone(), n),
+        Evidence::rank("E", of_e.clone(), of_e.rank),
+    ];
     if !holds {
         let null: Vec<f64> = found.null.column(0).iter().copied().collect();
         result.witness = Some(state_witness(plant, &null));
@@ -147,7 +134,10 @@ fn rows_condition(plant: &Plant, rows: &Result<Rows, String>) -> Condition {
             "R has {q} independent rows ({origin}), and rank [R; Phi A; C] = {n}: the observer has order {q}"
         )
     });
-    result.evidence = vec![evidence("R", &rows.own, q), evidence("[R; Phi A; C]", &rows.sigma, n)];
+    result.evidence = vec![
+        Evidence::rank("R", rows.own.clone(), q),
+        Evidence::rank("[R; Phi A; C]", rows.sigma.clone(), n),
+    ];
     if result.verdict == Verdict::Fails {
         result.remedies.push("leave R to the program, or take R = I (full order)".to_owned());
     }

@@ -8,7 +8,7 @@ use super::{Hierarchy, HierarchyError};
 use crate::numerics::{
     Complex64, NumericsError, PbhMode, RankDecision, StabilityRegion, Tolerance, pbh_modes, stack,
 };
-use crate::observer::{Condition, Evidence, Formula, PointEvidence, Verdict, Witness, show};
+use crate::observer::{Condition, Evidence, PointEvidence, Verdict, Witness, show};
 use crate::system::Network;
 use crate::system::properties::PropertyError;
 
@@ -51,19 +51,7 @@ pub fn conditions(network: &Network, tolerance: &Tolerance) -> Result<Vec<Condit
 }
 
 pub(super) fn condition((id, label): (&str, &str), name: &str, formula: &str) -> Condition {
-    Condition {
-        id: id.to_owned(),
-        label: label.to_owned(),
-        name: name.to_owned(),
-        formula: Formula::parse(formula),
-        source: format!("{PAPER}, {label}"),
-        verdict: Verdict::Undecided,
-        summary: String::new(),
-        evidence: Vec::new(),
-        witness: None,
-        remedies: Vec::new(),
-        needed: true,
-    }
+    Condition::asked((id.to_owned(), label), name, formula, format!("{PAPER}, {label}"))
 }
 
 fn too_large(error: &HierarchyError) -> Condition {

@@ -26,6 +26,7 @@ mod blocks;
 mod composite;
 mod conditions;
 mod design;
+mod estimated;
 mod representation;
 mod theorem;
 mod verify;

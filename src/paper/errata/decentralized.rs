@@ -3,7 +3,7 @@
 use super::Erratum;
 
 /// In the order of its pages.
-pub(super) const ERRATA: [Erratum; 17] = [
+pub(super) const ERRATA: [Erratum; 19] = [
     Erratum {
         paper: "000",
         place: "Proposition 1, ii and v",
@@ -103,11 +103,27 @@ pub(super) const ERRATA: [Erratum; 17] = [
     },
     Erratum {
         paper: "000",
+        place: "section IV, orders",
+        concerns: "",
+        printed: "reduced order n_i - m_i, minimal order n_i - r_phi_i - m_i",
+        correct: "n_i - rank H_i and n_i - rank [Phi_i A_ii; H_i]",
+        proof: "the example has n = 3, m = 2, r_phi = 1: printed is the minimal order 0, but rank [Phi A; H] = 2 leaves 1",
+    },
+    Erratum {
+        paper: "000",
         place: "section V, Y_1",
         concerns: "",
         printed: "Y_1 is 1 x 5, Z_i is 3 x 5",
         correct: "1 x 4 and 3 x 4",
         proof: "beta + r_phi + m = 1 + 1 + 2; the fifth column has no place",
+    },
+    Erratum {
+        paper: "000",
+        place: "section V, last entry of Y_1",
+        concerns: "",
+        printed: "0- 0.27",
+        correct: "-0.27",
+        proof: "Y_1 is N_1 times the second row of Z_1 in every entry: -0.0020 * 135.97 = -0.27",
     },
     Erratum {
         paper: "000",

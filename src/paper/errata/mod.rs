@@ -2,7 +2,12 @@
 
 mod decentralized;
 mod h_infinity;
+mod hierarchical;
+mod input_decoupled;
+mod printed;
 mod proportional_integral;
+
+pub use printed::{PrintedMatrix, printed};
 
 /// A misprint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,13 +26,41 @@ pub struct Erratum {
     pub proof: &'static str,
 }
 
+/// The sections of the papers that hold their examples.
+const EXAMPLES: [(&str, &str); 5] = [
+    ("000", "section V"),
+    ("001", "section III"),
+    ("002", "section 4"),
+    ("003", "section III"),
+    ("004", "section IV"),
+];
+
+impl Erratum {
+    /// Whether it concerns the numbers of the paper's example, and nothing beside them.
+    pub fn of_example(&self) -> bool {
+        let section = EXAMPLES.iter().find(|(paper, _)| *paper == self.paper);
+        section.is_some_and(|(_, section)| self.place.split(',').next() == Some(section))
+    }
+}
+
 /// All misprints of a paper.
 pub fn errata(paper: &str) -> impl Iterator<Item = &'static Erratum> {
     ALL.iter().copied().flatten().filter(move |erratum| erratum.paper == paper)
 }
 
+/// Keys of the papers in which misprints were found.
+pub fn papers_with_errata() -> Vec<&'static str> {
+    ALL.iter().filter_map(|errata| errata.first()).map(|erratum| erratum.paper).collect()
+}
+
 /// The misprints of every paper that the program implements.
-const ALL: [&[Erratum]; 3] = [&decentralized::ERRATA, &h_infinity::ERRATA, &proportional_integral::ERRATA];
+const ALL: [&[Erratum]; 5] = [
+    &decentralized::ERRATA,
+    &input_decoupled::ERRATA,
+    &h_infinity::ERRATA,
+    &hierarchical::ERRATA,
+    &proportional_integral::ERRATA,
+];
 
 #[cfg(test)]
 mod tests {
@@ -39,7 +72,13 @@ mod tests {
             assert_ne!(erratum.printed, erratum.correct, "{}: nothing is corrected", erratum.place);
             assert!(!erratum.proof.is_empty(), "{}: no proof", erratum.place);
         }
-        for (paper, own) in [("000", ALL[0]), ("002", ALL[1]), ("004", ALL[2])] {
+        let of_examples = |paper| errata(paper).filter(|erratum| erratum.of_example()).count();
+        assert_eq!(
+            ["001", "002", "004"].map(of_examples),
+            [3, 1, 3],
+            "the sections of the examples are known"
+        );
+        for (paper, own) in papers_with_errata().into_iter().zip(ALL) {
             assert!(
                 own.iter().all(|erratum| erratum.paper == paper),
                 "{paper}: a stranger among its misprints"

@@ -3,7 +3,7 @@
 use super::Erratum;
 
 /// In the order of its pages.
-pub(super) const ERRATA: [Erratum; 11] = [
+pub(super) const ERRATA: [Erratum; 13] = [
     Erratum {
         paper: "004",
         place: "after equation (4)",
@@ -18,7 +18,16 @@ pub(super) const ERRATA: [Erratum; 11] = [
         concerns: "L2",
         printed: "z' = F z + L1 y + L2 y_hat + J u + T1 N f_hat",
         correct: "z' = F z + (L1 + L2) y + J u + T1 N f_hat",
-        proof: "with L2 y_hat the error matrix of the example has the eigenvalues -23.9, 11.4 +- 20.4i, 0, 0: unstable",
+        proof: "with L2 y_hat the error matrix of the example, in reduced order, has the eigenvalues -22.1 and 10.5 +- 18.8i: \
+                unstable",
+    },
+    Erratum {
+        paper: "004",
+        place: "Algorithm 1",
+        concerns: "T1",
+        printed: "[T1 T2] = [E^+]",
+        correct: "[T1 T2] = [E; C]^+",
+        proof: "T1 E + T2 C = I; in the example [T1 T2] is 4 x 5, and E^+ is 4 x 2",
     },
     Erratum {
         paper: "004",
@@ -68,6 +77,14 @@ pub(super) const ERRATA: [Erratum; 11] = [
         printed: "A~* = A* (I + Delta A)",
         correct: "a~_ij = a_ij (1 + Delta a_ij), entry by entry",
         proof: "the matrix product mixes columns and contradicts the entries printed below it",
+    },
+    Erratum {
+        paper: "004",
+        place: "section IV, bounds of the uncertainty",
+        concerns: "",
+        printed: "|delta_ij| < 10",
+        correct: "in percent: |delta_ij| < 0.1",
+        proof: "as a number, delta_34 may pass -1, where det A22 = -(1 + delta_34) (1 + delta_43) is 0 and the plant loses index 1",
     },
     Erratum {
         paper: "004",

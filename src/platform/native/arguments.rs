@@ -7,9 +7,10 @@ use lexopt::Arg::{Long, Short, Value};
 use lexopt::{Parser, ValueExt as _};
 
 use crate::document::nearest;
-use crate::headless::{Format, Request, Source};
+use crate::headless::{Format, Request, Source, TableFormat};
 
-const COMMANDS: [&str; 6] = ["check", "design", "simulate", "figures", "examples", "help"];
+const COMMANDS: [&str; 8] =
+    ["check", "design", "simulate", "compare", "figures", "examples", "errata", "help"];
 
 /// What stands on the command line, before it is put together.
 #[derive(Default)]
@@ -53,7 +54,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, S
         return Err(format!("unexpected argument \"{}\" behind the file", extra.to_string_lossy()));
     }
     let takes: &[&str] = match command.as_str() {
-        "simulate" => &["format"],
+        "simulate" | "compare" => &["format"],
         "figures" => &["out", "only"],
         "examples" => &["out"],
         _ => &[],
@@ -68,6 +69,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, S
         "check" => Ok(Request::Check(file()?)),
         "design" => Ok(Request::Design(file()?)),
         "simulate" => Ok(Request::Simulate(file()?, format(given.format.as_deref())?)),
+        "compare" => Ok(Request::Compare(file()?, table_format(given.format.as_deref())?)),
         "figures" => {
             let out = given.out.ok_or("the command `figures` needs a folder to write to: --out DIR")?;
             Ok(Request::Figures { source: file()?, out, only: given.only })
@@ -79,6 +81,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, S
             let key = argument.map(|key| key.to_string_lossy().into_owned());
             Ok(Request::Examples { key, out: given.out })
         }
+        "errata" => Ok(Request::Errata(argument.map(|paper| paper.to_string_lossy().into_owned()))),
         "help" => Ok(Request::Help),
         other => {
             let hint =
@@ -123,6 +126,15 @@ fn format(word: Option<&str>) -> Result<Format, String> {
     }
 }
 
+fn table_format(word: Option<&str>) -> Result<TableFormat, String> {
+    match word {
+        None | Some("json") => Ok(TableFormat::Json),
+        Some("markdown" | "md") => Ok(TableFormat::Markdown),
+        Some("csv") => Ok(TableFormat::Csv),
+        Some(other) => Err(format!("--format is json, markdown or csv, not \"{other}\"")),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -140,10 +152,15 @@ mod tests {
             ("design -", Request::Design(Source::Stdin)),
             ("simulate a.json", Request::Simulate(file(), Format::Csv)),
             ("simulate --format=json a.json", Request::Simulate(file(), Format::Json)),
+            ("compare a.json", Request::Compare(file(), TableFormat::Json)),
+            ("compare --format markdown a.json", Request::Compare(file(), TableFormat::Markdown)),
+            ("compare a.json --format=csv", Request::Compare(file(), TableFormat::Csv)),
             ("figures example:x --out d", figures(None)),
             ("figures --only f1 -o d example:x", figures(Some("f1".into()))),
             ("examples", Request::Examples { key: None, out: None }),
             ("examples k --out f", Request::Examples { key: Some("k".into()), out: Some("f".into()) }),
+            ("errata", Request::Errata(None)),
+            ("errata 004", Request::Errata(Some("004".into()))),
             ("help", Request::Help),
             ("check --help", Request::Help),
             ("--version", Request::Version),
@@ -174,6 +191,8 @@ mod tests {
             ("check a b", "unexpected argument \"b\""),
             ("check a --format json", "has no option --format"),
             ("simulate a --format xml", "csv or json"),
+            ("compare a --format xml", "json, markdown or csv"),
+            ("compare", "needs a FILE"),
             ("simulate a --format", "missing argument"),
             ("figures a", "--out DIR"),
             ("figures --out d", "needs a FILE"),

@@ -6,7 +6,7 @@ mod zeros;
 use super::{Coordinates, coordinates};
 use crate::numerics::{RankDecision, Tolerance, rank, stack};
 use crate::observer::proportional_integral::advise_units;
-use crate::observer::{Condition, DesignChoice, Evidence, Formula, Order, Verdict};
+use crate::observer::{Condition, DesignChoice, Order};
 use crate::system::properties::PropertyError;
 use crate::system::{DescriptorSystem, Model};
 
@@ -81,21 +81,10 @@ impl<'a> Ask<'a> {
 }
 
 fn condition(label: &str, name: &str, formula: &str) -> Condition {
-    Condition {
-        id: format!("001-{}", label.trim_matches(['(', ')'])),
-        label: label.to_owned(),
-        name: name.to_owned(),
-        formula: Formula::parse(formula),
-        source: format!("{PAPER}, {label}"),
-        verdict: Verdict::Undecided,
-        summary: String::new(),
-        evidence: Vec::new(),
-        witness: None,
-        remedies: Vec::new(),
-        needed: true,
-    }
-}
-
-fn evidence(of: &str, decision: RankDecision, required: usize) -> Evidence {
-    Evidence::Rank { of: of.to_owned(), decision, required }
+    Condition::asked(
+        (format!("001-{}", label.trim_matches(['(', ')'])), label),
+        name,
+        formula,
+        format!("{PAPER}, {label}"),
+    )
 }

@@ -2,11 +2,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{Ask, condition, evidence};
+use super::{Ask, condition};
 use crate::numerics::Block::{Of, Zero};
 use crate::numerics::{Complex64, RankDecision, block_matrix, rank, stack, subspaces};
 use crate::observer::proportional_integral::single_sensors;
-use crate::observer::{Condition, Verdict, Witness};
+use crate::observer::{Condition, Evidence, Verdict, Witness};
 use crate::system::DescriptorSystem;
 use crate::system::properties::PropertyError;
 
@@ -41,7 +41,12 @@ impl Ask<'_> {
                     n + q
                 )
             } else {
-                format!("{}; {excess} combinations of the equations tie x1 and u alone", result.summary)
+                let ties = if excess == 1 {
+                    "one combination of the equations ties".to_owned()
+                } else {
+                    format!("{excess} combinations of the equations tie")
+                };
+                format!("{}; {ties} differential states and known inputs alone", result.summary)
             };
             if needed {
                 let remedy = if general_exists {
@@ -53,8 +58,8 @@ impl Ask<'_> {
             }
         }
         result.evidence = vec![
-            evidence("[U2'AV2 U2'D], on the null spaces of E", decision, required),
-            evidence("[0 E 0; E A D]", printed, e + r),
+            Evidence::rank("[U2'AV2 U2'D], on the null spaces of E", decision, required),
+            Evidence::rank("[0 E 0; E A D]", printed, e + r),
         ];
         result.needed = needed;
         Ok(result)
@@ -86,23 +91,46 @@ impl Ask<'_> {
                 coordinates: self.coordinate_names(),
             });
             let algebraic = self.algebraic_rank()?.rank;
-            if p + algebraic < required {
+            let hidden = self.hidden_inputs()?;
+            if !hidden.is_empty() {
+                result.summary =
+                    format!("{}; {} nowhere but in differential equations", result.summary, stand(&hidden));
                 result.remedies.push(format!(
-                    "at least {} outputs are needed, there are {p}: {required} algebraic states and unknown inputs, of \
-                     which the algebraic equations determine {algebraic}",
-                    required - algebraic
+                    "{} in no algebraic equation and in no output, and there it takes an integrator to find it: choose the \
+                     proportional-integral observer, or measure something that contains it (a row of F)",
+                    stand(&hidden)
                 ));
             }
-            result.remedies.extend(single_sensors(self.system, |extended| {
-                let ask = Ask::new(extended, self.tolerance)?;
-                Ok(ask.joint_rank()?.rank == ask.n_unknown())
-            })?);
+            if p + algebraic < required {
+                result.remedies.push(format!(
+                    "at least {} outputs are needed, there {} {p}: {required} algebraic states and unknown inputs, of \
+                     which the algebraic equations determine {algebraic}",
+                    required - algebraic,
+                    if p == 1 { "is" } else { "are" }
+                ));
+            }
+            // a sensor of a state shows no such input
+            if hidden.is_empty() {
+                result.remedies.extend(single_sensors(self.system, |extended| {
+                    let ask = Ask::new(extended, self.tolerance)?;
+                    Ok(ask.joint_rank()?.rank == ask.n_unknown())
+                })?);
+            }
         }
         result.evidence = vec![
-            evidence("[U2'AV2 U2'D; CV2 F], on the null spaces of E", decision, required),
-            evidence("[0 E 0; E A D; 0 C F]", printed, n + q + r),
+            Evidence::rank("[U2'AV2 U2'D; CV2 F], on the null spaces of E", decision, required),
+            Evidence::rank("[0 E 0; E A D; 0 C F]", printed, n + q + r),
         ];
         Ok(result)
+    }
+
+    /// The unknown inputs of combinations that neither the algebraic equations nor the outputs contain: `ker [D2; F]`.
+    fn hidden_inputs(&self) -> Result<Vec<String>, PropertyError> {
+        let seen = stack(&[&self.at.D2, &self.at.F]);
+        let hidden = subspaces(&seen, self.at.scale, self.tolerance)?.null;
+        const PART: f64 = 1e-9;
+        let takes_part = |row: &usize| hidden.row(*row).iter().any(|x| x.abs() > PART);
+        Ok((0..hidden.nrows()).filter(takes_part).map(|i| format!("d{}", i + 1)).collect())
     }
 
     /// Verdict and summary from the compressed rank, which decides, and the printed one beside it.
@@ -133,6 +161,14 @@ impl Ask<'_> {
                 if decision.singular_values.len() < required { 0.0 } else { decision.smallest() }
             )
         };
+    }
+}
+
+/// `d1 stands`, or `a combination of d1 and d2 stands`.
+fn stand(inputs: &[String]) -> String {
+    match inputs {
+        [one] => format!("{one} stands"),
+        several => format!("a combination of {} stands", several.join(", ")),
     }
 }
 

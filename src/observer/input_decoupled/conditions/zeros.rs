@@ -88,29 +88,9 @@ impl Ask<'_> {
 
     /// Where (A2) fails there is no pair; the pencil still has exact finite points.
     fn fill_pencil(&self, result: &mut Condition, found: &ModeCondition) {
-        result.verdict = Verdict::of(found.holds(), found.fragile());
-        let violation = found.violations().next();
-        let stable = |s| found.region.contains(s, found.margin);
-        result.summary = match (&found.free_direction, violation) {
-            (Some(_), _) => format!("rank {} < {} for every s", found.normal_rank, found.needed),
-            (None, Some(zero)) => format!("the invariant zero {} is not stable", show(zero.s)),
-            (None, None) => "every invariant zero is stable".to_owned(),
-        };
-        let direction = match (&found.free_direction, violation) {
-            (Some(free), _) => Some((None, free.iter().map(|x| (*x).into()).collect())),
-            (None, Some(zero)) => Some((Some(zero.s), zero.direction.clone())),
-            (None, None) => None,
-        };
-        result.witness =
-            direction.map(|(s, direction)| Witness { s, direction, coordinates: self.coordinate_names() });
-        let points = found.modes.iter().map(|zero| PointEvidence {
-            s: zero.s,
-            multiplicity: zero.multiplicity,
-            distance: zero.sigma,
-            loses_rank: true,
-            stable: stable(zero.s),
+        result.decide_on_modes(found, "[A-sE D; C F]", self.coordinate_names(), |_| {
+            "every invariant zero is stable".to_owned()
         });
-        result.evidence.push(Evidence::Points { of: "[A-sE D; C F]".to_owned(), points: points.collect() });
     }
 }
 

@@ -8,8 +8,8 @@ mod sensors;
 pub(in crate::observer) use sensors::single_sensors;
 
 use super::{compressed, restricted};
-use crate::numerics::{RankDecision, Tolerance};
-use crate::observer::{Condition, Evidence, Formula, Order, Verdict};
+use crate::numerics::Tolerance;
+use crate::observer::{Condition, Order, Verdict};
 use crate::system::DescriptorSystem;
 use crate::system::properties::{PropertyError, r_detectability};
 
@@ -130,27 +130,11 @@ fn id(label: &str) -> String {
 }
 
 fn condition(label: &str, name: &str, formula: &str) -> Condition {
-    Condition {
-        id: id(label),
-        label: label.to_owned(),
-        name: name.to_owned(),
-        formula: Formula::parse(formula),
-        source: format!("{PAPER}, equation {label}"),
-        verdict: Verdict::Undecided,
-        summary: String::new(),
-        evidence: Vec::new(),
-        witness: None,
-        remedies: Vec::new(),
-        needed: true,
-    }
+    Condition::asked((id(label), label), name, formula, format!("{PAPER}, equation {label}"))
 }
 
 fn undecided(label: &str, name: &str, why: &str) -> Condition {
     Condition { summary: why.to_owned(), needed: true, ..condition(label, name, "") }
-}
-
-fn evidence(of: &str, decision: RankDecision, required: usize) -> Evidence {
-    Evidence::Rank { of: of.to_owned(), decision, required }
 }
 
 impl Ask<'_> {

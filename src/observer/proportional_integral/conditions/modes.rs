@@ -2,11 +2,11 @@
 #![expect(non_snake_case, reason = "matrix letters follow Koenig and Mammar 2002")]
 
 use super::sensors::augmented_system;
-use super::{Ask, PAPER, condition, evidence};
+use super::{Ask, PAPER, condition};
 use crate::numerics::Block::Of;
 use crate::numerics::{RankDecision, block_matrix, rank};
 use crate::observer::proportional_integral::hold;
-use crate::observer::{Condition, Evidence, PointEvidence, Verdict, Witness};
+use crate::observer::{Condition, Evidence};
 use crate::system::properties::{ModeCondition, PropertyError, r_detectability};
 use crate::system::{DescriptorSystem, TimeDomain};
 
@@ -34,7 +34,7 @@ impl Ask<'_> {
         );
         result.evidence.insert(
             0,
-            evidence(
+            Evidence::rank(
                 if discrete { "[A*-E* N*; C* 0] at z = 1" } else { "[A* N*; C* 0] at s = 0" },
                 at_integrator,
                 n,
@@ -69,34 +69,9 @@ impl Ask<'_> {
     }
 
     fn fill_modes(&self, result: &mut Condition, found: &ModeCondition, of: &str) {
-        result.verdict = Verdict::of(found.holds(), found.fragile());
-        let points: Vec<PointEvidence> = found
-            .modes
-            .iter()
-            .map(|mode| PointEvidence {
-                s: mode.s,
-                multiplicity: mode.multiplicity,
-                distance: mode.sigma,
-                loses_rank: true,
-                stable: found.region.contains(mode.s, found.margin),
-            })
-            .collect();
-        let violation = found.violations().next();
-        result.summary = match (&found.free_direction, violation, points.len()) {
-            (Some(_), _, _) => format!("rank {} < {} for every s", found.normal_rank, found.needed),
-            (None, Some(mode), _) => {
-                format!("rank is lost at s = {}, which is not stable", crate::observer::show(mode.s))
-            }
-            (None, None, 0) => "no finite s at which rank is lost".to_owned(),
-            (None, None, count) => format!("rank is lost at {count} finite s, all of them stable"),
-        };
-        let direction = match (&found.free_direction, violation) {
-            (Some(free), _) => Some((None, free.iter().map(|x| (*x).into()).collect())),
-            (None, Some(mode)) => Some((Some(mode.s), mode.direction.clone())),
-            (None, None) => None,
-        };
-        result.witness =
-            direction.map(|(s, direction)| Witness { s, direction, coordinates: self.coordinates() });
-        result.evidence.push(Evidence::Points { of: of.to_owned(), points });
+        result.decide_on_modes(found, of, self.coordinates(), |modes| match modes.len() {
+            0 => "no finite s at which rank is lost".to_owned(),
+            count => format!("rank is lost at {count} finite s, all of them stable"),
+        });
     }
 }

@@ -3,7 +3,7 @@
 
 use nalgebra::DMatrix;
 
-use super::{Ask, condition, evidence, undecided};
+use super::{Ask, condition, undecided};
 use crate::numerics::{PbhMode, StabilityRegion, pbh_modes};
 use crate::observer::proportional_integral::{Equivalent, full_order, hold, reduced_order};
 use crate::observer::{Condition, Evidence, PointEvidence, Verdict, Witness};
@@ -48,7 +48,7 @@ impl Ask<'_> {
         let decision = reduction.C2_rank.clone();
         first.verdict = Verdict::of(decision.rank == needed, decision.fragile);
         first.summary = format!("rank {} of {needed} needed", decision.rank);
-        first.evidence = vec![evidence("C2 = C P1", decision, needed)];
+        first.evidence = vec![Evidence::rank("C2 = C P1", decision, needed)];
         if !first.verdict.holds() {
             let why = "its matrices are built on the left inverse of C2, which (22) does not give";
             return Ok(vec![first, undecided("(23)", NAME_23, why)]);

@@ -1,9 +1,9 @@
 //! Conditions on single ranks: (8), no feedthrough, (9), (11).
 
-use super::{Ask, PAPER, condition, evidence};
+use super::{Ask, PAPER, condition};
 use crate::numerics::{rank, side_by_side, stack};
 use crate::observer::proportional_integral::{Alternative, Equivalent, choose_alternative};
-use crate::observer::{Condition, Verdict, Witness};
+use crate::observer::{Condition, Evidence, Verdict, Witness};
 use crate::system::DescriptorSystem;
 use crate::system::properties::{PropertyError, impulse_observability};
 
@@ -48,8 +48,11 @@ impl Ask<'_> {
         if chosen.is_none() {
             result.remedies.push("choose the general form, which does not need (8)".to_owned());
         }
-        result.evidence =
-            vec![evidence("[E* N*]", of_ed, r), evidence("E*", of_e, e), evidence("[E*; C*]", of_ec, n)];
+        result.evidence = vec![
+            Evidence::rank("[E* N*]", of_ed, r),
+            Evidence::rank("E*", of_e, e),
+            Evidence::rank("[E*; C*]", of_ec, n),
+        ];
         result.needed = needed;
         Ok(result)
     }
@@ -104,12 +107,12 @@ impl Ask<'_> {
                 self.sensors(|extended| Ok(impulse_observability(extended, self.tolerance)?.holds()))?;
         }
         result.evidence = vec![
-            evidence(
+            Evidence::rank(
                 "[U2'A*V2; C*V2], on the null spaces of E*",
                 found.compressed.decision,
                 found.compressed.needed,
             ),
-            evidence("[E* A*; 0 E*; 0 C*]", found.printed.decision, found.printed.needed),
+            Evidence::rank("[E* A*; 0 E*; 0 C*]", found.printed.decision, found.printed.needed),
         ];
         Ok(result)
     }
@@ -122,7 +125,7 @@ impl Ask<'_> {
         let mut result = condition("(11)", "left inverse", "rank [E; C] = n");
         result.verdict = Verdict::of(decision.rank == n, decision.fragile);
         result.summary = format!("rank {} of {n} needed, in the equivalent system (4)", decision.rank);
-        result.evidence = vec![evidence("[E; C]", decision, n)];
+        result.evidence = vec![Evidence::rank("[E; C]", decision, n)];
         Ok(result)
     }
 }

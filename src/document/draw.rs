@@ -1,0 +1,37 @@
+//! Figures of a document, whatever its plant is.
+
+use super::{Document, Subject};
+use crate::numerics::Watch;
+use crate::paper::{
+    FigureRecipe, FigureSpec, NetworkProblem, Problem, compute_figure, compute_network_figure,
+};
+use crate::simulation::Span;
+
+impl Document {
+    /// Computes a figure for this document's plant, design and scenario.
+    ///
+    /// # Errors
+    /// A sentence: which run has no design or no trajectory, and why.
+    pub fn draw(&self, recipe: &FigureRecipe, watch: &Watch) -> Result<FigureSpec, String> {
+        let (design, tolerance) = (&self.design, &self.tolerance);
+        match self.subject().map_err(|error| error.to_string())? {
+            Subject::Model(model) => {
+                let scenario = &self.scenario(&model.system);
+                compute_figure(&Problem { model: &model, design, scenario, tolerance }, recipe, watch)
+            }
+            Subject::Network(network) => {
+                let (network, x0, span) = (&*network, &self.initial_state(), self.span());
+                compute_network_figure(
+                    &NetworkProblem { network, design, x0, span, tolerance },
+                    recipe,
+                    watch,
+                )
+            }
+        }
+    }
+
+    /// Horizon and samples of the scenario.
+    pub fn span(&self) -> Span {
+        Span { horizon: self.scenario.horizon, samples: self.scenario.samples }
+    }
+}

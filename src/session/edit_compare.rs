@@ -1,0 +1,146 @@
+//! Keeping designs beside the chosen one, and exchanging them.
+
+use super::poles;
+use super::state::{Draft, Field};
+use super::update::Edited;
+use crate::document::limits::MAX_KEPT;
+use crate::document::{CHOSEN, Document, KeptDesign};
+use crate::observer::{DesignChoice, Method};
+
+/// A change of the designs that are kept to be compared.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum CompareEdit {
+    /// Keeps the chosen design under a name that says what it is.
+    Keep,
+    /// Another name for a kept design, as typed.
+    Rename {
+        /// Which, from zero.
+        kept: usize,
+        /// What was typed.
+        name: String,
+    },
+    /// Forgets a kept design.
+    Discard(usize),
+    /// Makes a kept design the chosen one and keeps the chosen one in its place.
+    Choose(usize),
+}
+
+/// Characters of a name; more would not fit above a column.
+const MOST_CHARACTERS: usize = 48;
+
+/// Changes the kept designs of a document.
+pub(super) fn change(document: &mut Document, edit: CompareEdit) -> Edited {
+    match edit {
+        CompareEdit::Keep => return keep(document),
+        CompareEdit::Rename { kept, name } => return rename(document, kept, &name),
+        CompareEdit::Discard(kept) => {
+            if kept < document.kept.len() {
+                document.kept.remove(kept);
+            }
+        }
+        CompareEdit::Choose(kept) => {
+            // of two equal designs one is enough
+            let name = unique(document, &name_of(document), Some(kept));
+            if let Some(other) = document.kept.get_mut(kept) {
+                std::mem::swap(&mut other.design, &mut document.design);
+                other.name = name;
+                poles::provide(document);
+            }
+        }
+    }
+    Edited::Done
+}
+
+/// Whether designs or their places change, so that what was typed into them means something else.
+pub(super) fn exchanges(edit: &CompareEdit) -> bool {
+    matches!(edit, CompareEdit::Choose(_) | CompareEdit::Discard(_))
+}
+
+/// Whether a field belongs to a design and not to the plant or the scenario.
+pub(super) fn belongs_to_a_design(field: &Field) -> bool {
+    matches!(field, Field::Poles | Field::Rows(..) | Field::Given(_) | Field::KeptName(_))
+}
+
+fn keep(document: &mut Document) -> Edited {
+    if let Some(same) = document.kept.iter().find(|kept| kept.design == document.design) {
+        return Edited::Refused(format!(
+            "the chosen design is kept already, as \"{}\": change it first",
+            same.name
+        ));
+    }
+    if document.kept.len() >= MAX_KEPT {
+        return Edited::Refused(format!(
+            "{MAX_KEPT} designs are kept, and no more can be: discard one of them first"
+        ));
+    }
+    let name = unique(document, &name_of(document), None);
+    document.kept.push(KeptDesign { name, design: document.design.clone() });
+    Edited::Done
+}
+
+fn rename(document: &mut Document, index: usize, text: &str) -> Edited {
+    let name: String = text.trim().chars().take(MOST_CHARACTERS).collect();
+    let draft = |error: &str| {
+        Edited::Draft(Field::KeptName(index), Draft { text: text.to_owned(), error: error.to_owned() })
+    };
+    if index >= document.kept.len() {
+        return Edited::Done;
+    }
+    if name.is_empty() {
+        return draft("a name is needed");
+    }
+    if name == CHOSEN {
+        return draft("this is the name of the chosen design: take another");
+    }
+    if document.kept.iter().enumerate().any(|(k, kept)| k != index && kept.name == name) {
+        return draft("another kept design has this name: take another");
+    }
+    document.kept[index].name = name;
+    Edited::Done
+}
+
+/// A short name of the chosen design: method, order, and how many poles it takes or what is demanded.
+fn name_of(document: &Document) -> String {
+    let design = &document.design;
+    let mut parts = vec![method_name(design.method).to_owned()];
+    if design.method.orders().len() > 1 {
+        parts.push(design.order.key().to_owned());
+    }
+    parts.extend(particulars(document, design));
+    parts.join(", ")
+}
+
+fn method_name(method: Method) -> &'static str {
+    match method {
+        Method::ProportionalIntegral => "PI",
+        other => other.title(),
+    }
+}
+
+/// What tells a design from another one of the same method and order.
+fn particulars(document: &Document, design: &DesignChoice) -> Vec<String> {
+    let mut parts = Vec::new();
+    if design.method.uses_lmi() {
+        parts.extend(design.lmi.decay.map(|decay| format!("decay {decay}")));
+        parts.extend(design.lmi.gamma.map(|gamma| format!("gamma {gamma}")));
+        return parts;
+    }
+    if let Some(needed) = poles::used(document) {
+        parts.push(format!("{needed} {}", if needed == 1 { "pole" } else { "poles" }));
+    }
+    if design.scale != 1.0 {
+        parts.push(format!("times {}", design.scale));
+    }
+    parts
+}
+
+/// The name itself, or with a number behind it when another design has it.
+fn unique(document: &Document, name: &str, except: Option<usize>) -> String {
+    let others = document.kept.iter().enumerate().filter(|(k, _)| Some(*k) != except);
+    let taken: Vec<&str> = others.map(|(_, kept)| kept.name.as_str()).chain([CHOSEN]).collect();
+    let numbered = (2..).map(|k| format!("{name} ({k})"));
+    std::iter::once(name.to_owned())
+        .chain(numbered)
+        .find(|candidate| !taken.contains(&candidate.as_str()))
+        .unwrap_or_else(|| name.to_owned())
+}

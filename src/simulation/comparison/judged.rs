@@ -1,0 +1,76 @@
+//! What is known of a design without running it.
+
+use nalgebra::DMatrix;
+
+use super::{ComparedDesign, ErrorGains, ErrorStateSpace};
+use crate::numerics::{Complex64, NumericsError, StabilityRegion, Tolerance, svd};
+use crate::observer::{Design, Synthesis, error_system};
+use crate::system::{DescriptorSystem, TimeDomain};
+
+/// The row of a design, with its error system where it has one.
+///
+/// # Errors
+/// When a decomposition fails its check.
+pub(in crate::simulation) fn judged(
+    system: &DescriptorSystem,
+    design: &Design,
+    tolerance: &Tolerance,
+) -> Result<(ComparedDesign, Option<ErrorStateSpace>), NumericsError> {
+    let errors = error_system(system, design, tolerance);
+    let gains = match &errors {
+        Ok(errors) => errors.gains(tolerance).unwrap_or_else(|error| ErrorGains::none(&error.to_string())),
+        Err(error) => ErrorGains::none(&error.to_string()),
+    };
+    let region = StabilityRegion::of(system.time == TimeDomain::Discrete);
+    Ok((ComparedDesign { gains, ..judged_by_itself(design, region)? }, errors.ok()))
+}
+
+/// What a design tells of itself; nothing of its error in a plant.
+///
+/// # Errors
+/// When a decomposition fails its check.
+pub(super) fn judged_by_itself(
+    design: &Design,
+    region: StabilityRegion,
+) -> Result<ComparedDesign, NumericsError> {
+    let spectrum = design.verification.spectrum.clone();
+    let slowest = slowest(&spectrum, region);
+    Ok(ComparedDesign {
+        title: design.title.clone(),
+        order: design.observer.order(),
+        verified: design.verification.verified(),
+        slowest,
+        margin: slowest.map(|mode| -region.excess(mode)),
+        spectrum,
+        fixed_modes: design.synthesis.fixed_modes(),
+        output_gain: largest_gain(&design.observer.L)?,
+        direct_gain: largest_gain(&design.observer.V)?,
+        chosen_gain: match &design.synthesis {
+            Synthesis::Poles(placement) => largest_gain(&placement.gain)?,
+            Synthesis::Lmi(results) => results.iter().map(|result| result.gain).fold(0.0, f64::max),
+        },
+        guaranteed: guaranteed(&design.synthesis),
+        gains: ErrorGains::none("not asked"),
+        scenario: Err("not simulated".to_owned()),
+    })
+}
+
+/// The largest singular value of a matrix; zero for an empty one.
+pub(super) fn largest_gain(matrix: &DMatrix<f64>) -> Result<f64, NumericsError> {
+    Ok(svd(matrix)?.s.first().copied().unwrap_or(0.0))
+}
+
+/// The eigenvalue nearest to the boundary of stability, or furthest beyond it; of a pair the upper one.
+fn slowest(spectrum: &[Complex64], region: StabilityRegion) -> Option<Complex64> {
+    let order = |a: &&Complex64, b: &&Complex64| {
+        region.excess(**a).total_cmp(&region.excess(**b)).then(a.im.total_cmp(&b.im))
+    };
+    spectrum.iter().max_by(order).copied()
+}
+
+/// The proved attenuation, when that of every subsystem is.
+fn guaranteed(synthesis: &Synthesis) -> Option<f64> {
+    let of = |result: &crate::observer::LmiResult| result.gamma.filter(|_| result.certificate.proved);
+    let gammas: Option<Vec<f64>> = synthesis.lmi().iter().map(of).collect();
+    gammas?.into_iter().reduce(f64::max)
+}

@@ -1,0 +1,158 @@
+//! Plants that are not square and the misprints of the papers, used as a person uses them, without a window.
+#![cfg(all(not(target_arch = "wasm32"), feature = "gui"))]
+#![expect(clippy::unwrap_used, reason = "helpers of tests may fail a test")]
+
+use descry::document::EntryMatrix;
+use descry::gui::App;
+use descry::observer::{Method, Order};
+use descry::platform::SynchronousRunner;
+use descry::session::{Analysis, Command, Edit, FreeEdit, FreeReport, Session, Show, Tab};
+use egui_kittest::{Harness, kittest::Queryable as _};
+use nalgebra::DMatrix;
+
+fn harness(key: &str, size: [f32; 2]) -> Harness<'static, App> {
+    let mut harness = Harness::builder().with_size(size).build_ui_state(
+        |ui, app: &mut App| app.show(ui),
+        App::new(
+            &egui::Context::default(),
+            Session::with_first_example().unwrap(),
+            Box::new(SynchronousRunner::default()),
+        ),
+    );
+    harness.state_mut().command(Command::OpenExample { key: key.to_owned() });
+    settle(&mut harness);
+    harness
+}
+
+fn settle(harness: &mut Harness<'_, App>) {
+    harness.run_steps(6);
+    assert!(harness.state().derived().running().is_none(), "the runner of this test computes at once");
+}
+
+fn type_into(harness: &mut Harness<'_, App>, label: &str, text: &str) {
+    harness.get_by_role_and_label(egui::accesskit::Role::TextInput, label).click();
+    harness.run_steps(2);
+    harness.key_combination_modifiers(egui::Modifiers::COMMAND, &[egui::Key::A]);
+    harness.run_steps(1);
+    harness.event(egui::Event::Text(text.to_owned()));
+    harness.run_steps(1);
+    harness.key_press(egui::Key::Enter);
+    settle(harness);
+}
+
+fn click(harness: &mut Harness<'_, App>, label: &str) {
+    harness.get_by_label(label).click();
+    settle(harness);
+}
+
+fn feedback(harness: &Harness<'_, App>) -> Option<DMatrix<f64>> {
+    harness.state().session().document().scenario.free.feedback.as_ref().map(EntryMatrix::values)
+}
+
+fn analysis<'a>(harness: &'a Harness<'_, App>) -> &'a Analysis {
+    harness.state().derived().analysis().unwrap()
+}
+
+fn report<'a>(harness: &'a Harness<'_, App>) -> &'a FreeReport {
+    analysis(harness).free.as_ref().unwrap()
+}
+
+#[test]
+fn a_free_state_is_driven_and_fed_back() {
+    let mut harness = harness("input-decoupled", [1500.0, 1200.0]);
+    harness.get_by_label("One state is free:");
+    harness.get_by_label("v1 = 0.7071 x3 - 0.7071 x4");
+    type_into(&mut harness, "v1", "cos(t)");
+    let signals = &harness.state().session().document().scenario.free.signals;
+    assert_eq!(signals[0].text(), "cos(t)", "typed");
+    type_into(&mut harness, "v1", "cos(");
+    harness.get_by_label_contains("v1: ");
+    type_into(&mut harness, "v1", "0");
+
+    click(&mut harness, "State feedback");
+    assert_eq!(feedback(&harness), None, "off");
+    harness.get_by_label_contains("The plant may grow");
+    click(&mut harness, "Keep the plant bounded");
+    let found = feedback(&harness).unwrap();
+    let half = 0.5_f64.sqrt();
+    assert!((found[(0, 0)] - 5.0 * half).abs() < 1e-9, "{found}");
+    assert!(report(&harness).unstable.is_empty(), "bounded");
+    harness.get_by_label_contains("The plant stays bounded");
+    type_into(&mut harness, "feedback[1, 3]", "1/2");
+    assert_eq!(feedback(&harness).unwrap()[(0, 2)], 0.5, "a cell is typed");
+    click(&mut harness, "Undo");
+    assert_eq!(feedback(&harness).unwrap()[(0, 2)], found[(0, 2)], "and taken back");
+}
+
+#[test]
+fn nothing_is_said_of_free_states_twice() {
+    let mut harness = harness("input-decoupled", [1500.0, 1200.0]);
+    for tab in Tab::ALL {
+        harness.state_mut().command(Command::Show(Show::Tab(tab)));
+        settle(&mut harness);
+        let count = harness.query_all_by_label_contains("0.7071 x3 - 0.7071 x4").count();
+        assert_eq!(count, 1, "{tab:?}: in the scenario's place alone");
+    }
+}
+
+#[test]
+fn a_square_system_becomes_wide_by_a_click() {
+    let mut harness = harness("proportional-integral", [1500.0, 1200.0]);
+    assert!(analysis(&harness).free.is_none(), "square");
+    click(&mut harness, "Fewer equations");
+    assert_eq!(report(&harness).n_free, 1, "three equations for four states");
+    harness.get_by_label("One state is free:");
+    click(&mut harness, "More equations");
+    assert!(analysis(&harness).free.is_none(), "square again");
+    click(&mut harness, "More states");
+    let system = harness.state().session().document().system().unwrap();
+    assert_eq!((system.n_states(), system.n_equations()), (5, 5), "and linked");
+}
+
+#[test]
+fn free_signals_wait_while_a_system_is_square() {
+    let mut harness = harness("proportional-integral", [1500.0, 1200.0]);
+    assert!(harness.query_by_label_contains("Signals and feedback of free states wait").is_none(), "none");
+    let edit = FreeEdit::Signal { index: 0, text: "sin(t)".to_owned() };
+    harness.state_mut().command(Command::Edit(Edit::Free(edit)));
+    settle(&mut harness);
+    harness.get_by_label_contains("Signals and feedback of free states wait");
+}
+
+#[test]
+fn equations_that_contradict_each_other_say_what_to_do() {
+    let mut harness = harness("proportional-integral", [1500.0, 1200.0]);
+    click(&mut harness, "More equations");
+    type_into(&mut harness, "A[5, 1]", "1");
+    type_into(&mut harness, "A[5, 2]", "1");
+    harness.get_by_label_contains("Nothing to simulate");
+    assert!(analysis(&harness).simulation.is_err(), "five equations for four states");
+}
+
+#[test]
+fn misprints_stand_beside_what_they_concern_and_in_a_list() {
+    let mut harness = harness("input-decoupled", [1500.0, 5000.0]);
+    harness.get_by_label_contains("printed \"G = [5/3 4/3]\"");
+    let pairs = |harness: &Harness<'_, App>| harness.query_all_by_label("printed").count();
+    assert_eq!(pairs(&harness), 2, "G and L as they are printed, beside ours");
+    assert_eq!(harness.query_all_by_label("ours").count(), 2, "ours");
+    // another plant: its G is not the printed one, its L happens to stay
+    type_into(&mut harness, "A[3, 2]", "3");
+    assert_eq!(pairs(&harness), 1, "what is printed for G does not belong to this one");
+    click(&mut harness, "Undo");
+    assert!(harness.query_by_label("section III, d_hat").is_none(), "the list is folded");
+    click(&mut harness, "Misprints of paper 001 (5)");
+    harness.get_by_label("section III, d_hat");
+    harness.get_all_by_label_contains("its coefficient of z is [0 0] with -4/3").next().unwrap();
+}
+
+#[test]
+fn the_list_is_that_of_the_chosen_method() {
+    let mut harness = harness("proportional-integral", [1500.0, 3000.0]);
+    harness.get_by_label("Misprints of paper 004 (13)");
+    click(&mut harness, "Input-decoupled");
+    assert_eq!(harness.state().session().document().design.method, Method::InputDecoupled, "the tile");
+    harness.get_by_label("Misprints of paper 001 (5)");
+    click(&mut harness, "General");
+    assert_eq!(harness.state().session().document().design.order, Order::General, "its second order");
+}
