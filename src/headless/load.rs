@@ -13,18 +13,22 @@ pub(super) struct Problem {
     pub(super) model: Model,
 }
 
-/// Reads a document.
+/// Reads a document with the plant as one system.
 pub(super) fn load(source: &Source, files: &dyn Files) -> Result<Problem, Refusal> {
+    let document = document(source, files)?;
+    let model = document.model().map_err(|error| Refusal::bad_input(format!("{}: {error}", name(source))))?;
+    Ok(Problem { document, model })
+}
+
+/// Reads a document, of a network of any size.
+pub(super) fn document(source: &Source, files: &dyn Files) -> Result<Document, Refusal> {
     let name = name(source);
     let text = match source {
         Source::Example(key) => find_example(key)?.text.to_owned(),
         Source::Stdin => text(&name, files.read_stdin(MAX_BYTES + 1))?,
         Source::File(path) => text(&name, files.read(path, MAX_BYTES + 1))?,
     };
-    let at = |error: &dyn std::fmt::Display| Refusal::bad_input(format!("{name}: {error}"));
-    let document = read_document(&text).map_err(|error| at(&error))?;
-    let model = document.model().map_err(|error| at(&error))?;
-    Ok(Problem { document, model })
+    read_document(&text).map_err(|error| Refusal::bad_input(format!("{name}: {error}")))
 }
 
 /// The example with that key.
