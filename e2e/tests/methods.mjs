@@ -75,7 +75,7 @@ export default async ({ step, open }) => {
     const [page, state] = await network(open);
     assert.equal(state.verified, true, JSON.stringify(state.errors));
     assert.equal(state.spectrum.length, 11, 'six of the whole, five of subsystem 4');
-    await page.click('switch', /^Subsystem 4/);
+    await page.click('button', /^4: /);
     const out = await page.until((found) => settled(found) && found.spectrum.length === 6, 'the whole alone');
     assert.equal(out.verified, true, JSON.stringify(out.errors));
     await page.page.keyboard.press('Control+Z');
