@@ -411,3 +411,87 @@ fn a_lipschitz_term_is_not_silently_left_out() {
         assert!(ran.err.contains("Lipschitz term"), "{command}: {}", ran.err);
     }
 }
+
+#[test]
+fn compare_reports_every_design_of_the_example() {
+    let ran = run(&["compare", "example:comparison"]);
+    assert_eq!((ran.code, ran.err.as_str()), (0, ""), "all designs exist and are verified");
+    let report = ran.json();
+    assert_eq!(report["command"], "compare");
+    let designs = report["designs"].as_array().unwrap();
+    let names: Vec<&str> = designs.iter().map(|design| design["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["chosen", "proportional", "PI, full", "PI, general", "H-infinity"]);
+    for design in designs {
+        assert_eq!(design["verdict"], "verified", "{}", design["name"]);
+        assert!(
+            design["h_infinity_norms"]["noise to e"]["norm"].as_f64().unwrap() > 0.0,
+            "{}",
+            design["name"]
+        );
+        assert!(
+            design["scenario"]["rms_second_half"]["all_states"].as_f64().unwrap() > 0.0,
+            "{}",
+            design["name"]
+        );
+    }
+    assert_eq!(designs[0]["h_infinity_norms"]["d to e"]["decoupled"], true, "the input-decoupled one");
+    assert_eq!(designs[1]["h_infinity_norms"]["d to e_d"]["why"], "not estimated", "the proportional one");
+    assert!(designs[4]["guaranteed_gamma"].as_f64().unwrap() > 0.0, "the H-infinity one");
+    assert_eq!(
+        run(&["compare", "example:comparison"]).out,
+        ran.out,
+        "the same document gives the same bytes"
+    );
+}
+
+#[test]
+fn compare_writes_a_table_as_markdown_and_csv() {
+    let ran = run(&["compare", "example:comparison", "--format", "markdown"]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let first = ran.out.lines().next().unwrap();
+    assert_eq!(first, "|  | chosen | proportional | PI, full | PI, general | H-infinity |");
+    let columns = |line: &str| line.replace("\\|", "").matches('|').count();
+    let table = ran.out.lines().take_while(|line| !line.is_empty());
+    assert!(table.clone().count() > 30 && table.clone().all(|line| columns(line) == 7), "{}", ran.out);
+    let ran = run(&["compare", "example:comparison", "--format", "csv"]);
+    assert!(ran.out.contains("\nOrder,2,2,4,4,3\n"), "{}", ran.out);
+    let ran = run(&["compare", "example:comparison", "--format", "html"]);
+    assert!(ran.code == 2 && ran.err.contains("json, markdown or csv"), "{}", ran.err);
+}
+
+#[test]
+fn compare_says_which_design_is_missing() {
+    let ran = run(&["compare", "example:unseen-impulse"]);
+    assert_eq!(ran.code, 1, "it does not exist");
+    assert!(ran.err.contains("chosen: condition (9) does not hold"), "{}", ran.err);
+    assert_eq!(ran.json()["designs"][0]["verdict"], "does not exist");
+    let text = r#"{"descry":1,"system":{"E":[[1]],"A":[[0]],"C":[[1]],"D":[[1]]},"design":{"poles":[-1,-2]},
+        "compare":[{"name":"short","design":{"poles":[-1]}}]}"#;
+    let ran = with_input(&["compare", "-"], text.as_bytes());
+    assert_eq!(ran.code, 2, "a list of poles that does not fit: {}", ran.err);
+    assert_eq!(ran.json()["designs"][0]["verdict"], "verified", "the other one is there");
+    assert!(ran.err.contains("short: 1 poles are given"), "{}", ran.err);
+}
+
+#[test]
+fn compare_takes_a_network_that_is_never_expanded() {
+    let ran = run(&["compare", "example:network-ring"]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let report = ran.json();
+    assert_eq!(report["designs"][0]["verdict"], "verified");
+    assert!(report["notes"][0].as_str().unwrap().contains("never expanded"), "{}", report["notes"]);
+}
+
+#[test]
+fn figures_of_a_comparison_are_written_by_their_ids() {
+    let out = folder("comparison-figures");
+    let out_text = out.to_str().unwrap();
+    for id in ["comparison-states", "comparison-errors", "comparison-unknown-input", "comparison-gains"] {
+        let ran = run(&["figures", "example:comparison", "--out", out_text, "--only", id]);
+        assert_eq!(ran.code, 0, "{id}: {}", ran.err);
+        let svg = std::fs::read_to_string(out.join(format!("{id}.svg"))).unwrap();
+        assert!(svg.contains("PI, general") && svg.contains("chosen"), "{id}: names in the legend");
+    }
+    let ran = run(&["figures", "example:comparison", "--out", out_text]);
+    assert!(!ran.out.contains("comparison-states"), "without a choice the document's own: {}", ran.out);
+}

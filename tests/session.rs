@@ -9,9 +9,9 @@ use descry::numerics::{Complex64, Watch};
 use descry::observer::{GivenObserver, Method, Order, Verdict, assess, assess_network};
 use descry::paper::EXAMPLES;
 use descry::session::{
-    Analysis, Cell, Command, Derived, Edit, Field, Fill, FreeEdit, GivenPart, JobReply, JobRequest,
-    LipschitzEdit, LipschitzMatrix, LmiEdit, Outcome, PartitionEdit, Session, Share, Show, SignalList, Size,
-    Tab, Task, perform, update,
+    Analysis, Cell, Command, CompareEdit, Derived, Edit, Field, Fill, FreeEdit, GivenPart, JobReply,
+    JobRequest, LipschitzEdit, LipschitzMatrix, LmiEdit, Outcome, PartitionEdit, Session, Share, Show,
+    SignalList, Size, Tab, Task, perform, update,
 };
 use descry::system::TimeDomain;
 use proptest::prelude::*;
@@ -553,6 +553,16 @@ fn a_scenario_edit() -> impl Strategy<Value = Edit> {
     ]
 }
 
+fn a_compare_edit() -> impl Strategy<Value = Edit> {
+    prop_oneof![
+        4 => Just(CompareEdit::Keep),
+        2 => (0..4_usize, ".{0,60}").prop_map(|(kept, name)| CompareEdit::Rename { kept, name }),
+        1 => (0..4_usize).prop_map(CompareEdit::Discard),
+        2 => (0..4_usize).prop_map(CompareEdit::Choose),
+    ]
+    .prop_map(Edit::Compare)
+}
+
 fn a_command() -> impl Strategy<Value = Command> {
     let keys: Vec<String> = EXAMPLES.iter().map(|example| example.key.to_owned()).collect();
     prop_oneof![
@@ -563,6 +573,7 @@ fn a_command() -> impl Strategy<Value = Command> {
         3 => a_lipschitz_edit().prop_map(Command::Edit),
         4 => a_scenario_edit().prop_map(Command::Edit),
         3 => a_free_edit().prop_map(Command::Edit),
+        3 => a_compare_edit().prop_map(Command::Edit),
         1 => Just(Command::Undo),
         1 => Just(Command::Redo),
         1 => prop::sample::select(keys).prop_map(|key| Command::OpenExample { key }),

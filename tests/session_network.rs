@@ -175,6 +175,19 @@ fn initial_states_stay_with_their_subsystems() {
 }
 
 #[test]
+fn initial_states_by_an_expression_follow_the_sizes() {
+    let mut session = opened(PAPER);
+    update(&mut session, Command::Edit(Edit::InitialFormula("1/(21-i)".to_owned())));
+    edit(&mut session, size(NetworkSize::Subsystems, false));
+    assert!(session.document().scenario.x0_formula.is_some(), "fifteen states have values");
+    update(&mut session, Command::Undo);
+    edit(&mut session, size(NetworkSize::Subsystems, true));
+    let values = session.document().initial_state();
+    assert_eq!((values[19], values[20], values[21]), (1.0, 0.0, -1.0), "listed, with a zero for i = 21");
+    assert!(told(&session).0.contains("i = 21"), "and that is said: {:?}", told(&session));
+}
+
+#[test]
 fn every_size_has_its_bounds() {
     let all = [
         NetworkSize::Subsystems,

@@ -45,9 +45,14 @@ impl InitialFormula {
         self.0.text()
     }
 
+    /// The value of one state, from zero.
+    pub fn value(&self, state: usize) -> f64 {
+        self.0.value(&[(state + 1) as f64])
+    }
+
     /// The values of `n` states.
     pub fn values(&self, n: usize) -> Vec<f64> {
-        (1..=n).map(|i| self.0.value(&[i as f64])).collect()
+        (0..n).map(|state| self.value(state)).collect()
     }
 }
 

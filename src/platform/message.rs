@@ -50,7 +50,7 @@ mod tests {
     #[test]
     fn requests_and_replies_of_every_example_pass_through() {
         for example in EXAMPLES {
-            for task in [Task::Analyse, Task::Figure { id: "none".to_owned() }] {
+            for task in [Task::Analyse, Task::Compare, Task::Figure { id: "none".to_owned() }] {
                 let request = JobRequest { id: 7, revision: 3, document: example.text.to_owned(), task };
                 let back: JobRequest = decode(&encode(&request).unwrap()).unwrap();
                 assert_eq!(back, request, "{}: the request", example.key);

@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 
 use super::edit_lmi::{fit_given, follow_time, time};
 use super::follow_kept::follow_kept;
-use super::{edit_free, edit_lipschitz, follow_network};
+use super::{edit_free, edit_lipschitz, follow_initial, follow_network};
 use crate::document::{Document, EntryMatrix, Matrix, PlantData, Sizes};
 use crate::observer::Method;
 use crate::system::{Subsystem, check_partition};
@@ -16,6 +16,7 @@ use crate::system::{Subsystem, check_partition};
 /// what a document holds.
 pub(super) fn follow(document: &mut Document, before: &Document) -> Result<Vec<String>, String> {
     let mut gone = follow_network::follow(document, before)?;
+    gone.extend(follow_initial::follow(document, before));
     gone.extend(edit_lipschitz::follow_sizes(document));
     edit_free::follow_sizes(document);
     gone.extend(partition(document, before)?);

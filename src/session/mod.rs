@@ -18,6 +18,7 @@ mod edit_plant;
 mod edit_scenario;
 mod edit_sensor;
 mod follow;
+mod follow_initial;
 mod follow_kept;
 mod follow_network;
 mod free_report;

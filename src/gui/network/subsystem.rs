@@ -4,9 +4,10 @@ use egui::{Checkbox, DragValue, Id, RichText, Ui};
 
 use super::super::entry_grid::pasted_block;
 use super::super::text_field::text_field;
-use super::super::{Output, Widgets, formula, theme};
+use super::super::{Output, Widgets, formula, plot::short, theme};
 use super::LARGEST_GRID;
-use crate::document::{Entry, NetworkData, NetworkMatrix};
+use crate::document::limits::MAX_SIDE;
+use crate::document::{InitialFormula, NetworkData, NetworkMatrix};
 use crate::session::{Edit, Field, NetworkCell, NetworkEdit, Session};
 
 /// Draws the chosen subsystem.
@@ -78,15 +79,25 @@ fn initial(
     // wide enough for an expression such as 5*sin(20)
     const WIDTH: f32 = 74.0;
     let states = data.a.shape().0;
-    let x0 = &session.document().scenario.x0;
+    let scenario = &session.document().scenario;
+    let formula = scenario.x0_formula.as_ref().filter(|_| scenario.x0.is_empty());
+    let own = |state: usize| match (scenario.x0.get(state), formula) {
+        (Some(entry), _) => entry.shown(),
+        (None, Some(formula)) => short(formula.value(state)),
+        (None, None) => "0".to_owned(),
+    };
+    let editable = data.states() <= MAX_SIDE;
     ui.horizontal_wrapped(|ui| {
         ui.label("starts from");
-        for i in 0..states.min(SHOWN) {
-            let state = k * states + i;
-            let shown = x0.get(state).map_or_else(|| "0".to_owned(), Entry::shown);
+        for state in (k * states..).take(states.min(SHOWN)) {
+            let name = format!("x{}(0)", state + 1);
+            if !editable {
+                ui.label(own(state)).on_hover_text(name);
+                continue;
+            }
             let draft = session.draft(&Field::Initial(state));
-            let (id, name) = (Id::unique(("network initial", state)), format!("x{}(0)", state + 1));
-            if let Some(text) = text_field(ui, widgets, (id, &name), &shown, draft, WIDTH) {
+            let id = Id::unique(("network initial", state));
+            if let Some(text) = text_field(ui, widgets, (id, &name), &own(state), draft, WIDTH) {
                 out.edit(Edit::Initial { state, text });
             }
         }
@@ -98,6 +109,25 @@ fn initial(
         if let Some(draft) = session.draft(&Field::Initial(state)) {
             ui.colored_label(theme::bad(ui), format!("x{}(0): {}", state + 1, draft.error));
         }
+    }
+    for_all(ui, session, formula.map_or("", InitialFormula::text), widgets, out);
+}
+
+/// One expression for the initial states of all subsystems.
+fn for_all(ui: &mut Ui, session: &Session, shown: &str, widgets: &mut Widgets, out: &mut Output) {
+    let draft = session.draft(&Field::InitialFormula);
+    ui.horizontal(|ui| {
+        ui.label("all by x_i(0) =").on_hover_text(
+            "An expression in i, the number of the state in the whole network, such as 5*sin(i); empty for rest",
+        );
+        let id = Id::unique("initial states");
+        let width = (ui.available_width() - theme::BLOCK_GAP).clamp(60.0, 220.0);
+        if let Some(text) = text_field(ui, widgets, (id, "Initial states of all"), shown, draft, width) {
+            out.edit(Edit::InitialFormula(text));
+        }
+    });
+    if let Some(draft) = draft {
+        ui.colored_label(theme::bad(ui), format!("x_i(0): {}", draft.error));
     }
 }
 

@@ -9,7 +9,7 @@ use egui::{CollapsingHeader, Response, Ui};
 
 use super::{Output, Widgets, theme};
 use crate::document::limits::MAX_SIDE;
-use crate::document::{Document, Matrix, PlantData, ScenarioData};
+use crate::document::{self, Document, Matrix, PlantData, ScenarioData};
 use crate::session::{Derived, Session, SignalList};
 use crate::system::TimeDomain;
 
@@ -65,18 +65,15 @@ impl Sizes {
                 editable: true,
             },
             // where the subsystems start stands with each of them
-            plant @ PlantData::Network(_) => {
-                let outputs = crate::document::Sizes::of(plant).outputs;
-                Self {
-                    discrete: false,
-                    states: 0,
-                    equations: 0,
-                    inputs: 0,
-                    unknown: 0,
-                    outputs: if outputs > MAX_SIDE { 0 } else { outputs },
-                    editable: false,
-                }
-            }
+            plant @ PlantData::Network(_) => Self {
+                discrete: false,
+                states: 0,
+                equations: 0,
+                inputs: 0,
+                unknown: 0,
+                outputs: Some(document::Sizes::of(plant).outputs).filter(|n| *n <= MAX_SIDE).unwrap_or(0),
+                editable: false,
+            },
         }
     }
 }

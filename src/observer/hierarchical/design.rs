@@ -259,10 +259,11 @@ pub fn design(
         }
     }
     let verification = verify_network(network, &observer, tolerance)?;
+    let count = observer.locals().count();
     let title = format!(
-        "hierarchical observer, global order {}, {} local observers of order {}",
+        "hierarchical observer, global order {}, {count} local {} of order {}",
         observer.hierarchy.order(),
-        observer.locals().count(),
+        if count == 1 { "observer" } else { "observers" },
         network.a.nrows()
     );
     Ok(HierarchicalDesign { title, matrices: matrices(&observer), observer, verification, notes })
