@@ -25,6 +25,8 @@ usage:
 
 FILE is a document; `-` reads standard input, `example:KEY` takes an example.
 A document without figures has the standard ones: states, errors, unknown-input, bode.
+A network of more than 30 states is never written as one system: `simulate` then holds its whole and the subsystems
+that are estimated. Estimates and errors of other subsystems are left out, whatever the size.
 `figures --only comparison-states` (-errors, -unknown-input, -gains) draws all designs of `compare` together.
 
 exit codes:
@@ -35,3 +37,14 @@ exit codes:
 Reports have \"descry_report\": 1. Numbers read back exactly; \"inf\", \"-inf\" and \"nan\" stand for what JSON has no
 number for (a gap is \"inf\" when nothing is left below it); complex numbers are [real, imaginary].
 ";
+
+#[cfg(test)]
+mod tests {
+    use super::HELP;
+    use crate::document::limits::MAX_EXPANDED;
+
+    #[test]
+    fn the_limit_of_networks_is_the_one_in_force() {
+        assert!(HELP.contains(&format!("more than {MAX_EXPANDED} states")), "{HELP}");
+    }
+}
