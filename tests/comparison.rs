@@ -319,7 +319,7 @@ fn the_table_marks_the_best_and_keeps_three_digits() {
 const RING: &str = r#"{"descry":1,"system":{"network":{
 "a":[[-1,1],[0,-2]],"b":[[0],[1]],"c":[[1,0]],
 "Gamma":{"rows":200,"columns":200,"entries":[[1,2,1],[2,1,1],[1,1,-1],[2,2,-1]]},
-"Psi":{"rows":2,"columns":200,"entries":[[1,1,1],[1,2,2],[2,1,1]]},"c_G":[[1,0]],"c_L":[[1,0]],"local":[1,7]}},
+"Psi":{"rows":1,"columns":200,"entries":[[1,1,1],[1,2,-1]]},"c_G":[[1,0]],"c_L":[[1,0]],"local":[1,7]}},
 "design":{"method":"hierarchical","order":"full","poles":[-3,-4,-5,-6],"local poles":[-7,-8]},
 "compare":[{"name":"slower","design":{"method":"hierarchical","order":"full","poles":[-2,-2.5,-3,-3.5],"local poles":[-4,-5],"plugged":[7]}},
 {"name":"PI","design":{"method":"proportional-integral","poles":[-1,-2]}}]}"#;
