@@ -119,7 +119,7 @@ fn checks(workspace: &Workspace, browser: &str) -> Vec<Check> {
         quick(
             "tests in a browser",
             &[&format!(
-                "test --locked --target {WASM} --test web --test paper_000 --test paper_001 --test paper_002"
+                "test --locked --target {WASM} --test web --test paper_000 --test paper_001 --test paper_002 --test paper_003"
             )],
         ),
         Check { name: "build of the page", slow: true, work: Work::Page },
