@@ -1,6 +1,6 @@
 //! Keeping designs, exchanging them, and comparing them, as a session does it.
 #![cfg(not(target_arch = "wasm32"))]
-#![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail by panicking")]
+#![expect(clippy::unwrap_used, reason = "helpers of tests fail by panicking")]
 
 use descry::document::limits::MAX_KEPT;
 use descry::document::{Document, read_document};
