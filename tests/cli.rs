@@ -492,6 +492,10 @@ fn figures_of_a_comparison_are_written_by_their_ids() {
         let svg = std::fs::read_to_string(out.join(format!("{id}.svg"))).unwrap();
         assert!(svg.contains("PI, general") && svg.contains("chosen"), "{id}: names in the legend");
     }
+    let ran = run(&["figures", "example:comparison", "--out", out_text, "--only", "trade-off"]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let svg = std::fs::read_to_string(out.join("trade-off.svg")).unwrap();
+    assert!(svg.contains("What is gained") && svg.contains("noise to e"), "both sides of the trade");
     let ran = run(&["figures", "example:comparison", "--out", out_text]);
     assert!(!ran.out.contains("comparison-states"), "without a choice the document's own: {}", ran.out);
 }

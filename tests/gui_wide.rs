@@ -136,6 +136,11 @@ fn misprints_stand_beside_what_they_concern_and_in_a_list() {
     let pairs = |harness: &Harness<'_, App>| harness.query_all_by_label("printed").count();
     assert_eq!(pairs(&harness), 2, "G and L as they are printed, beside ours");
     assert_eq!(harness.query_all_by_label("ours").count(), 2, "ours");
+    let heights = [
+        harness.get_by_label_contains("printed \"G = ").rect().min.y,
+        harness.get_by_label("Q1").rect().min.y,
+    ];
+    assert!(heights[1] - heights[0] < 100.0, "the pair takes no more room than it needs: {heights:?}");
     // another plant: its G is not the printed one, its L happens to stay
     type_into(&mut harness, "A[3, 2]", "3");
     assert_eq!(pairs(&harness), 1, "what is printed for G does not belong to this one");

@@ -279,7 +279,8 @@ fn a_wrong_observer_is_not_verified() {
     let names = failed(&wrong);
     assert!(
         names.contains(&"orthonormal N".to_owned())
-            && names.contains(&"row space of the coupling".to_owned())
+            && names.contains(&"row space of the coupling".to_owned()),
+        "the failing checks are named: {names:?}"
     );
 }
 

@@ -75,9 +75,12 @@ export default async ({ step, open }) => {
     const [page, state] = await network(open);
     assert.equal(state.verified, true, JSON.stringify(state.errors));
     assert.equal(state.spectrum.length, 11, 'six of the whole, five of subsystem 4');
-    await page.click('button', /^4: /);
+    const { subsystems, local, plugged, globalOrder } = state.network;
+    assert.deepEqual([subsystems, local, plugged, globalOrder], [4, [4], [4], 6], 'the network of the paper');
+    await page.click('button', '4: plugged in');
     const out = await page.until((found) => settled(found) && found.spectrum.length === 6, 'the whole alone');
     assert.equal(out.verified, true, JSON.stringify(out.errors));
+    assert.deepEqual(out.network.plugged, [], 'no local observer');
     await page.page.keyboard.press('Control+Z');
     await page.until((found) => settled(found) && found.spectrum.length === 11, 'plugged in again');
     await page.click('button', 'Paper figures');

@@ -4,8 +4,9 @@ use super::{Document, Subject};
 use crate::numerics::Watch;
 use crate::paper::{
     FigureRecipe, FigureSpec, NetworkProblem, Problem, compute_figure, compute_network_figure,
+    trade_off_figure,
 };
-use crate::simulation::Span;
+use crate::simulation::{Span, trade_off};
 
 impl Document {
     /// Computes a figure for this document's plant, design and scenario.
@@ -28,6 +29,21 @@ impl Document {
                 )
             }
         }
+    }
+
+    /// Draws designs along a sweep of the chosen design's bandwidth factor, or of the decay that it has to keep.
+    ///
+    /// # Errors
+    /// A sentence: why there is no design, or that the network is too large.
+    pub fn draw_trade_off(&self, watch: &Watch) -> Result<FigureSpec, String> {
+        let model = match self.subject().map_err(|error| error.to_string())? {
+            Subject::Model(model) => model,
+            Subject::Network(_) => {
+                return Err("a network that is too large to be written as one system is not swept".to_owned());
+            }
+        };
+        let found = trade_off(&model, &self.design, &self.tolerance, watch);
+        Ok(trade_off_figure(&found.ok_or("cancelled")??, model.system.time))
     }
 
     /// Horizon and samples of the scenario.

@@ -53,6 +53,10 @@ fn computed(problem: &Problem, chosen: &dyn Fn(&str) -> bool) -> Result<Vec<Comp
     if let Some(figures) = of_comparison(problem, chosen)? {
         return Ok(figures);
     }
+    if !chosen("") && chosen(TRADE_OFF) {
+        let figure = document.draw_trade_off(&Watch::none());
+        return Ok(vec![(TRADE_OFF.to_owned(), "Trade-off".to_owned(), figure)]);
+    }
     if document.figures.is_empty() {
         return standard_figures(problem, chosen);
     }
@@ -76,6 +80,9 @@ fn of_comparison(problem: &Problem, chosen: &dyn Fn(&str) -> bool) -> Result<Opt
 /// Ids of the figures that show all designs.
 const COMPARISON: [&str; 4] =
     ["comparison-states", "comparison-errors", "comparison-unknown-input", "comparison-gains"];
+
+/// Id of the figure of designs along a sweep.
+const TRADE_OFF: &str = "trade-off";
 
 fn standard_figures(problem: &Problem, chosen: &dyn Fn(&str) -> bool) -> Result<Vec<Computed>, Refusal> {
     let mut figures = match &problem.subject {
@@ -107,6 +114,7 @@ fn unknown(only: &str, document: &Document) -> Refusal {
         ids = vec!["states", "errors", "unknown-input", "bode"];
     }
     ids.extend(COMPARISON);
+    ids.push(TRADE_OFF);
     let hint = nearest(only, &ids).map_or(String::new(), |near| format!("; did you mean \"{near}\"?"));
     Refusal::bad_input(format!("there is no figure \"{only}\": the ids are {}{hint}", ids.join(", ")))
 }

@@ -7,8 +7,7 @@ use super::comparison::{ComparisonView, compared};
 use super::free_report::FreeReport;
 use crate::document::{Document, Subject, read_document};
 use crate::numerics::Watch;
-use crate::paper::{FigureSpec, trade_off_figure};
-use crate::simulation::trade_off;
+use crate::paper::FigureSpec;
 
 /// A computation that is asked for.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -98,7 +97,7 @@ pub(super) const TRADE_OFF: &str = "(trade-off)";
 
 fn figure(document: &Document, id: &str, watch: &Watch) -> Result<FigureSpec, String> {
     if id == TRADE_OFF {
-        return sweep(document, watch);
+        return document.draw_trade_off(watch);
     }
     let recipe = document.figures.iter().find(|recipe| recipe.id == id);
     let recipe = recipe.ok_or_else(|| format!("the document has no figure \"{id}\""))?;
@@ -107,16 +106,4 @@ fn figure(document: &Document, id: &str, watch: &Watch) -> Result<FigureSpec, St
         figure.notes = FreeReport::without_own(FreeReport::new(document, &model).as_ref(), figure.notes);
     }
     Ok(figure)
-}
-
-/// Designs along a sweep of the chosen design's own knob.
-fn sweep(document: &Document, watch: &Watch) -> Result<FigureSpec, String> {
-    let model = match document.subject().map_err(|error| error.to_string())? {
-        Subject::Model(model) => model,
-        Subject::Network(_) => {
-            return Err("a network that is too large to be written as one system is not swept".to_owned());
-        }
-    };
-    let found = trade_off(&model, &document.design, &document.tolerance, watch);
-    Ok(trade_off_figure(&found.ok_or("cancelled")??, model.system.time))
 }

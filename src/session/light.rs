@@ -60,13 +60,22 @@ pub(super) fn judged(method: Method, found: &[Condition]) -> MethodLight {
     let needed = || found.iter().filter(|condition| condition.needed);
     if let Some(failed) = needed().find(|condition| !condition.verdict.holds()) {
         let mend = failed.remedies.first().map_or(String::new(), |remedy| format!("\n{remedy}"));
-        return light(Light::Fails, format!("condition {} fails: {}{mend}", failed.label, failed.summary));
+        return light(Light::Fails, format!("{} fails: {}{mend}", called(failed), failed.summary));
     }
     match needed().find(|condition| condition.verdict == Verdict::Fragile) {
         Some(near) => {
             light(Light::Near, format!("condition {} holds narrowly: {}", near.label, near.summary))
         }
         None => light(Light::Exists, "all conditions hold".to_owned()),
+    }
+}
+
+/// A condition as people call it: `condition (9)`, but `Assumption 1`.
+fn called(condition: &Condition) -> String {
+    if condition.label.starts_with('(') {
+        format!("condition {}", condition.label)
+    } else {
+        condition.label.clone()
     }
 }
 

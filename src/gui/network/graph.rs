@@ -95,7 +95,7 @@ pub(super) fn show(ui: &mut Ui, picture: &Picture<'_>) -> Option<Act> {
     let pointer = pointer.filter(|_| ui.rect_contains_pointer(square) && drawn.is_none());
     let under = pointer.and_then(|at| graph.link_at(at));
     graph.paint(ui, under, drawn);
-    graph.tell(ui, area, pointer, under);
+    graph.tell(ui, &area, pointer, under);
     act
 }
 
@@ -227,7 +227,7 @@ impl Graph<'_> {
     }
 
     /// What is under the pointer, in words.
-    fn tell(&self, ui: &Ui, area: Response, pointer: Option<Pos2>, under: Option<Link>) {
+    fn tell(&self, ui: &Ui, area: &Response, pointer: Option<Pos2>, under: Option<Link>) {
         let node = pointer.and_then(|at| self.circle.node_at(at));
         let text = match (node, under) {
             (Some(k), _) => {
@@ -242,7 +242,8 @@ impl Graph<'_> {
             (None, None) => return,
         };
         ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
-        let _shown = area.on_hover_text_at_pointer(text);
+        // nodes lie above the area, so that it is never hovered itself
+        egui::Tooltip::for_widget(area).at_pointer().gap(12.0).show(|ui| ui.label(text));
     }
 }
 

@@ -51,7 +51,7 @@ fn subsystems(ui: &mut Ui, session: &Session, data: &NetworkData, widgets: &mut 
                 }
                 let (id, shown) = (Id::unique("subsystems"), data.n_subsystems().to_string());
                 let draft = session.draft(&Field::Subsystems);
-                if let Some(text) = text_field(ui, widgets, (id, "Subsystems"), &shown, draft, 42.0) {
+                if let Some(text) = text_field(ui, widgets, (id, "Subsystems"), &shown, draft, 52.0) {
                     out.edit(Edit::Network(NetworkEdit::Subsystems(text)));
                 }
                 if bump(ui, "+", "More subsystems") {
