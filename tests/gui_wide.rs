@@ -131,11 +131,17 @@ fn equations_that_contradict_each_other_say_what_to_do() {
 
 #[test]
 fn misprints_stand_beside_what_they_concern_and_in_a_list() {
-    let mut harness = harness("input-decoupled", [1500.0, 5000.0]);
+    let mut harness = harness("input-decoupled", [1500.0, 8000.0]);
     harness.get_by_label_contains("printed \"G = [5/3 4/3]\"");
     let pairs = |harness: &Harness<'_, App>| harness.query_all_by_label("printed").count();
     assert_eq!(pairs(&harness), 2, "G and L as they are printed, beside ours");
     assert_eq!(harness.query_all_by_label("ours").count(), 2, "ours");
+    let matrices =
+        [harness.get_by_label_contains("printed \"G = ").rect(), harness.get_by_label("Q1").rect()];
+    assert!(
+        matrices[1].min.y - matrices[0].min.y < 100.0,
+        "the pair takes no more room than it needs: {matrices:?}"
+    );
     // another plant: its G is not the printed one, its L happens to stay
     type_into(&mut harness, "A[3, 2]", "3");
     assert_eq!(pairs(&harness), 1, "what is printed for G does not belong to this one");

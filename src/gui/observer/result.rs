@@ -107,7 +107,8 @@ fn named_matrix(ui: &mut Ui, document: &Document, method: Method, matrix: &Named
             Some(known) => {
                 ui.horizontal_top(|ui| {
                     errata::printed(ui, known, digits);
-                    ui.separator();
+                    // not a line, which would be as high as the room below
+                    ui.add_space(theme::BLOCK_GAP);
                     ui.vertical(|ui| {
                         formula::remark(ui, "ours");
                         entries(ui, matrix);
