@@ -106,7 +106,8 @@ impl WidePlant {
     /// A nonlinearity does not count.
     ///
     /// # Errors
-    /// [`SimulationError::FreeFeedback`] for a feedback that cancels the free variables; a feedback of the wrong shape; what the system itself does not allow.
+    /// [`SimulationError::FreeFeedback`] for a feedback that cancels the free variables; a feedback of the wrong shape; what
+    /// the system itself does not allow.
     pub fn motion(
         &self,
         model: &Model,
