@@ -10,6 +10,10 @@ use crate::paper::{FigureSpec, Panel, Series};
 /// Panels are not drawn narrower or lower than this.
 const LEAST_WIDTH: f32 = 185.0;
 const LEAST_HEIGHT: f32 = 150.0;
+/// What the last label of the horizontal axis, centred below the edge of the plot, takes to the right of it.
+const LABEL_OVERHANG: f32 = 10.0;
+/// Labels of a logarithmic axis keep this distance, in points.
+const LABEL_DISTANCE: f64 = 44.0;
 /// Height of the line with title and legend above a panel, where it does not wrap.
 const TITLE_HEIGHT: f32 = 22.0;
 
@@ -145,7 +149,7 @@ fn plot(ui: &mut Ui, panel: &Panel, place: &Place<'_>, (height, hidden): (f32, u
     let touch = ui.input(egui::InputState::has_touch_screen);
     let mut plot = Plot::new((place.id_salt, place.at))
         .id(Id::unique(("plot", place.id_salt, place.at)))
-        .width(place.size.x)
+        .width(place.size.x - LABEL_OVERHANG)
         .height(height)
         .sense(if touch { Sense::click() } else { Sense::click_and_drag() })
         .allow_scroll(false)
@@ -339,15 +343,20 @@ pub(super) fn multiples(step: f64, low: f64, high: f64) -> Vec<f64> {
 }
 
 /// Lines of a logarithmic axis: decades, and 2 to 9 between them where few decades are shown.
+///
+/// The step of a decade is the distance of labels, since the plot leaves out labels that are higher or wider than the
+/// step of their line.
 #[expect(clippy::needless_pass_by_value, reason = "the signature of a grid spacer")]
 fn decades(input: GridInput) -> Vec<GridMark> {
     let (low, high) = input.bounds;
+    // the plot gives eight points as its finest step
+    let every = decades_between_labels(high - low, (high - low) / input.base_step_size * 8.0);
     let digits = if high - low > 3.0 { 1..2_u8 } else { 1..10 };
     let mut marks = Vec::new();
     for decade in multiples(1.0, low.floor(), high) {
         for digit in digits.clone() {
             let value = decade + f64::from(digit).log10();
-            marks.push(GridMark { value, step_size: if digit == 1 { 1.0 } else { 0.3 } });
+            marks.push(GridMark { value, step_size: if digit == 1 { every } else { 0.3 } });
         }
     }
     marks.retain(|mark| (low - 1e-9..=high + 1e-9).contains(&mark.value));
@@ -356,15 +365,19 @@ fn decades(input: GridInput) -> Vec<GridMark> {
 
 /// Label of a line of a logarithmic axis that shows `span` decades on `width` points.
 ///
-/// Only decades have one, at least 44 points apart, unless hardly more than one decade is shown.
+/// Only decades have one, at least [`LABEL_DISTANCE`] apart, unless hardly more than one decade is shown.
 fn decade(value: f64, span: f64, width: f64) -> String {
     let nearest = value.round();
     let whole = (value - nearest).abs() < 1e-9;
-    let every = (44.0 * span / width).ceil().max(1.0);
+    let every = decades_between_labels(span, width);
     if whole && nearest.rem_euclid(every) > 0.5 || !whole && span > 1.2 {
         return String::new();
     }
     if (-3.5..4.5).contains(&value) { short(10_f64.powf(value)) } else { format!("1e{nearest}") }
+}
+
+fn decades_between_labels(span: f64, width: f64) -> f64 {
+    (LABEL_DISTANCE * span / width).ceil().max(1.0)
 }
 
 #[cfg(test)]
@@ -389,6 +402,9 @@ mod tests {
         assert_eq!(decade(2_f64.log10(), 1.0, 400.0), "2", "unless hardly a decade is shown");
         let marks = decades(GridInput { bounds: (-0.5, 1.0), base_step_size: 0.1 });
         assert_eq!(marks.iter().filter(|mark| mark.step_size == 1.0).count(), 2, "1 and 10");
+        // twelve decades on 140 points: 12 points are less than the height of a label
+        let marks = decades(GridInput { bounds: (-3.0, 9.0), base_step_size: 12.0 / 140.0 * 8.0 });
+        assert!(marks.iter().all(|mark| mark.step_size * 140.0 / 12.0 >= 44.0), "labels have room");
     }
 
     #[test]
