@@ -24,7 +24,12 @@ pub(super) fn compare(source: &Source, format: TableFormat, files: &dyn Files) -
         TableFormat::Markdown => comparison_to_markdown(&comparison),
         TableFormat::Csv => comparison_to_csv(&comparison),
     };
-    Ok(Answer { text, remarks: remarks(&comparison), code: code(&comparison) })
+    let mut remarks = remarks(&comparison);
+    if format == TableFormat::Csv {
+        // a table of numbers has no place for sentences
+        remarks.extend(comparison.notes.iter().cloned());
+    }
+    Ok(Answer { text, remarks, code: code(&comparison) })
 }
 
 /// Compares the designs of a document.

@@ -31,10 +31,10 @@ pub(super) fn compared(document: &Document, watch: &Watch) -> Option<Result<Box<
             let scenario = document.scenario(&model.system);
             let found = compare(&model, &scenario, &contenders, tolerance, watch)?;
             let figures = figures(&found, &model.system);
-            let Comparison { rows, notes } = found.comparison;
+            let Comparison { rows, linear_part, notes } = found.comparison;
             // what stands in the scenario's place is not said again
             let notes = FreeReport::without_own(FreeReport::new(document, &model).as_ref(), notes);
-            ComparisonView { comparison: Comparison { rows, notes }, figures }
+            ComparisonView { comparison: Comparison { rows, linear_part, notes }, figures }
         }
     };
     Some(Ok(Box::new(view)))

@@ -31,7 +31,9 @@ pub struct Contender<'a> {
 pub struct Comparison {
     /// The designs.
     pub rows: Vec<ComparisonRow>,
-    /// What a person should know of the scenario: a projected initial state, a trajectory that was cut off.
+    /// Whether the plant has a nonlinearity, so that the norms are those of its linear part.
+    pub linear_part: bool,
+    /// What a person should know: what the norms leave out, a projected initial state, a trajectory that was cut off.
     pub notes: Vec<String>,
 }
 
@@ -55,6 +57,10 @@ pub struct ComparedDesign {
     pub title: String,
     /// Number of its own states.
     pub order: usize,
+    /// Number of the plant's states.
+    pub states: usize,
+    /// Those of the plant's states whose estimate tends to the truth, from zero, in ascending order.
+    pub estimated: Vec<usize>,
     /// Whether every check was passed.
     pub verified: bool,
     /// Eigenvalues of the error dynamics.
@@ -69,7 +75,7 @@ pub struct ComparedDesign {
     pub output_gain: f64,
     /// `|V|`, the largest gain from `y` to the estimate at once.
     pub direct_gain: f64,
-    /// Norm of the gain that was chosen: by the placement, or the largest of the matrix inequalities.
+    /// Norm of the gain that was chosen: by the placements, or by the matrix inequalities; the largest of all.
     pub chosen_gain: f64,
     /// The attenuation that is proved, the largest of all subsystems.
     pub guaranteed: Option<f64>,
@@ -100,7 +106,7 @@ pub fn compare(
     watch: &Watch,
 ) -> Option<Compared> {
     let count = contenders.len().max(1) as f32;
-    let mut comparison = Comparison::default();
+    let mut comparison = Comparison { linear_part: model.lipschitz.is_some(), ..Comparison::default() };
     let mut found = Vec::new();
     for (k, contender) in contenders.iter().enumerate() {
         let watch = watch.part(0.8 * k as f32 / count, 0.8 * (k + 1) as f32 / count);
@@ -130,9 +136,14 @@ pub fn compare(
         }
         runs.push(ComparedRun { row: *row, errors: errors.clone(), motion: motion.ok() });
     }
-    comparison.notes = runs::notes(&runs, &comparison);
+    let linear = comparison.linear_part.then(|| LINEAR_PART.to_owned());
+    comparison.notes = linear.into_iter().chain(runs::notes(&runs, &comparison)).collect();
     Some(Compared { comparison, runs })
 }
+
+/// What the norms of a nonlinear plant are worth.
+const LINEAR_PART: &str = "the plant has a Lipschitz term: H-infinity norms and the figure of gains are those of the error \
+                           of the linear part, f = 0; of the whole plant only the guaranteed gamma says something";
 
 /// Conditions that cannot be decided, as a reason why there is no design.
 fn undecided(error: impl std::fmt::Display) -> DesignError {

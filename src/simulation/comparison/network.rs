@@ -1,6 +1,6 @@
 //! Hierarchical observers of a network that is too large to be written as one system.
 
-use super::judged::{judged_by_itself, largest_gain};
+use super::judged::judged_by_itself;
 use super::{ComparedDesign, Comparison, ComparisonRow, Contender, undecided};
 use crate::numerics::{NumericsError, StabilityRegion, Tolerance, Watch};
 use crate::observer::{Design, DesignError, ErrorGains, Method, assess_network};
@@ -30,7 +30,7 @@ pub fn compare_network(
             assess_network(network, choice, tolerance)
                 .map_err(undecided)
                 .and_then(|assessment| assessment.outcome)
-                .and_then(|design| row(network, &design).map_err(undecided))
+                .and_then(|design| row(&design).map_err(undecided))
         } else {
             Err(DesignError::Unsuitable(only.clone()))
         };
@@ -44,15 +44,9 @@ pub fn compare_network(
     Some(comparison)
 }
 
-fn row(network: &Network, design: &Design) -> Result<ComparedDesign, NumericsError> {
+fn row(design: &Design) -> Result<ComparedDesign, NumericsError> {
     const WHY: &str = "the network is too large for the error of the whole";
     let mut row = judged_by_itself(design, StabilityRegion::LeftHalfPlane)?;
-    if let Some(observer) = &design.hierarchical {
-        row.order = observer.hierarchy.order() + network.a.nrows() * observer.locals().count();
-        for (local, _) in observer.distinct_locals() {
-            row.output_gain = row.output_gain.max(largest_gain(&local.h)?);
-        }
-    }
     row.gains = ErrorGains::none(WHY);
     row.scenario = Err(WHY.to_owned());
     Ok(row)
