@@ -39,7 +39,7 @@ pub use command::{
 };
 pub use comparison::ComparisonView;
 pub use derived::Derived;
-pub use edit_compare::CompareEdit;
+pub use edit_compare::{CompareEdit, why_not_kept};
 pub use edit_coupling::coupling_forms;
 pub use edit_free::FreeEdit;
 pub use free_report::FreeReport;
