@@ -5,10 +5,9 @@ use serde::{Deserialize, Serialize};
 use super::analysis_network as of_network;
 use super::analysis_properties::properties;
 use super::free_report::FreeReport;
-use super::light::lights;
 use crate::document::{Document, Subject};
 use crate::numerics::{Complex64, Watch};
-use crate::observer::{Assessment, Method, Verdict, assess};
+use crate::observer::{Assessment, Known, MethodLight, Verdict, assess, lights};
 use crate::paper::{FigureSpec, Motion, standard};
 use crate::system::Model;
 use crate::system::properties::finite_eigenvalues;
@@ -43,30 +42,6 @@ pub struct Property {
     pub detail: String,
     /// How it came out, where it is a question.
     pub verdict: Option<Verdict>,
-}
-
-/// Whether a method can be used.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct MethodLight {
-    /// The method.
-    pub method: Method,
-    /// The light.
-    pub light: Light,
-    /// Why.
-    pub why: String,
-}
-
-/// A light of a method.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Light {
-    /// Its conditions hold.
-    Exists,
-    /// They hold narrowly.
-    Near,
-    /// One fails.
-    Fails,
-    /// Data are missing.
-    Missing,
 }
 
 /// The standard views of a simulation.
@@ -113,7 +88,8 @@ pub fn analyse(document: &Document, watch: &Watch) -> Option<Analysis> {
     }
     let assessment =
         assess(&model, &document.design, tolerance, &watch.part(0.1, 0.8)).map_err(|error| error.to_string());
-    let methods = lights(&model, document, assessment.as_ref());
+    let known = assessment.as_ref().ok().map(Known::from);
+    let methods = lights(&model, &document.design, tolerance, known);
     if !watch.go_on(0.8, "simulation") {
         return None;
     }

@@ -24,7 +24,6 @@ mod follow_network;
 mod free_report;
 mod history;
 mod job;
-mod light;
 mod model_edits;
 mod network_edits;
 mod new_network;
@@ -33,7 +32,7 @@ mod start;
 mod state;
 mod update;
 
-pub use analysis::{Analysis, Light, MethodLight, Property, Simulation, analyse};
+pub use analysis::{Analysis, Property, Simulation, analyse};
 pub use command::{
     Cell, Command, ComparedFigure, Edit, Fill, Place, Show, SignalList, Size, Tab, ThemeChoice,
 };
@@ -51,3 +50,5 @@ pub use poles::poles_text;
 pub use start::{restored_view, view_text};
 pub use state::{Draft, Field, Message, Session, View};
 pub use update::{cell_name, update};
+
+pub use crate::observer::{Light, MethodLight};

@@ -81,7 +81,7 @@ pub(in crate::gui) fn sentence(why: &str) -> String {
 fn word(light: Light) -> &'static str {
     match light {
         Light::Exists => "exists",
-        Light::Near => "exists narrowly",
+        Light::Near => "exists narrowly or not as asked",
         Light::Fails => "does not exist",
         Light::Missing => "data missing",
     }
