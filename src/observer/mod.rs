@@ -20,7 +20,9 @@ mod verify;
 pub use choice::{Assessment, DesignChoice, Method, Order, assess, conditions};
 pub use condition::{Condition, Evidence, Formula, FormulaPart, PointEvidence, Verdict, Witness};
 pub use design::{Claim, Design, DesignError, NamedMatrix, chosen_poles, scaled_pole};
-pub use error_system::{ErrorGain, ErrorGains, ErrorStateSpace, ErrorSystemError, error_system};
+pub use error_system::{
+    ErrorGain, ErrorGains, ErrorStateSpace, ErrorSystemError, error_system, network_error_system,
+};
 pub use light::{Known, Light, MethodLight, lights, network_lights};
 pub use lmi_choice::{GivenObserver, LmiChoice};
 pub use network_choice::assess_network;

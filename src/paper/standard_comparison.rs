@@ -33,7 +33,7 @@ impl ComparisonFigures {
 }
 
 /// Number of the colour of true values.
-const TRUTH: usize = 7;
+pub(super) const TRUTH: usize = 7;
 /// Numbers of the colours of designs: first those with a good contrast on any ground.
 const DESIGNS: [usize; 7] = [0, 1, 2, 3, 5, 4, 6];
 
@@ -43,7 +43,7 @@ pub fn design_colour(row: usize) -> usize {
 }
 
 /// The stroke of a design: dashes where colours begin again, so that no two designs look the same.
-fn role_of(row: usize, first: Role) -> Role {
+pub(super) fn role_of(row: usize, first: Role) -> Role {
     if row < DESIGNS.len() { first } else { Role::Other }
 }
 
@@ -78,13 +78,13 @@ pub fn comparison(compared: &Compared, system: &DescriptorSystem) -> ComparisonF
     }
 }
 
-struct Draw<'a> {
-    compared: &'a Compared,
-    time: TimeDomain,
+pub(super) struct Draw<'a> {
+    pub(super) compared: &'a Compared,
+    pub(super) time: TimeDomain,
 }
 
 impl Draw<'_> {
-    fn name(&self, run: &ComparedRun) -> String {
+    pub(super) fn name(&self, run: &ComparedRun) -> String {
         self.compared.comparison.rows.get(run.row).map_or_else(String::new, |row| row.name.clone())
     }
 
@@ -126,10 +126,9 @@ impl Draw<'_> {
     }
 
     /// Whether a design estimates a state, by its row in the table.
-    fn estimated(&self, run: &ComparedRun, state: usize) -> bool {
+    pub(super) fn estimated(&self, run: &ComparedRun, state: usize) -> bool {
         let row = self.compared.comparison.rows.get(run.row).and_then(|row| row.outcome.as_ref().ok());
-        let errors = row.and_then(|row| row.scenario.as_ref().ok());
-        errors.is_none_or(|errors| errors.states.get(state).is_none_or(Option::is_some))
+        row.is_some_and(|row| row.estimated.binary_search(&state).is_ok())
     }
 
     fn time_panel(&self, title: &str, series: Vec<Series>) -> Panel {
@@ -143,7 +142,7 @@ impl Draw<'_> {
 }
 
 /// A figure of the panels that have curves.
-fn figure((id, title): (&str, &str), caption: &str, panels: Vec<Panel>) -> Option<FigureSpec> {
+pub(super) fn figure((id, title): (&str, &str), caption: &str, panels: Vec<Panel>) -> Option<FigureSpec> {
     let panels: Vec<Panel> = panels.into_iter().filter(|panel| !panel.series.is_empty()).collect();
     (!panels.is_empty()).then(|| FigureSpec {
         id: id.to_owned(),
@@ -172,7 +171,7 @@ const PATHS: [Path; 4] = [
 ];
 
 /// The largest singular values of the error systems over frequency, whose maxima are the norms of the table.
-fn gains(draw: &Draw<'_>) -> Option<FigureSpec> {
+pub(super) fn gains(draw: &Draw<'_>) -> Option<FigureSpec> {
     let range = range(draw)?;
     let frequencies = bode_frequencies(range);
     let mut panels = vec![Vec::new(); PATHS.len()];

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::free_report::FreeReport;
 use crate::document::{Document, Subject};
 use crate::numerics::Watch;
-use crate::paper::{ComparisonFigures, comparison as figures};
-use crate::simulation::comparison::{Comparison, compare, compare_network};
+use crate::paper::{ComparisonFigures, comparison as figures, network_comparison};
+use crate::simulation::comparison::{Comparison, compare};
 
 /// Table and figures of a comparison.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -24,8 +24,8 @@ pub(super) fn compared(document: &Document, watch: &Watch) -> Option<Result<Box<
     let view = match document.subject() {
         Err(error) => return Some(Err(error.to_string())),
         Ok(Subject::Network(network)) => {
-            let comparison = compare_network(&network, &contenders, tolerance, watch)?;
-            ComparisonView { comparison, ..ComparisonView::default() }
+            let found = document.compare_network(&network, watch)?;
+            ComparisonView { figures: network_comparison(&found, &network), comparison: found.comparison }
         }
         Ok(Subject::Model(model)) => {
             let scenario = document.scenario(&model.system);

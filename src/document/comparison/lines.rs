@@ -144,12 +144,9 @@ fn gain_lines(rows: &[ComparisonRow]) -> [TableLine; 3] {
             Better::Neither,
             &|d| number(d.output_gain),
         ),
-        of(
-            "|V|",
-            "Largest gain from the outputs to the estimate at once",
-            Better::Smaller,
-            &|d| number(d.direct_gain),
-        ),
+        of("|V|", "Largest gain from the outputs to the estimate at once", Better::Smaller, &|d| {
+            number(d.direct_gain)
+        }),
         of(
             "Chosen gain",
             "Norm of what the placement or the matrix inequalities chose, which is another matrix for each method",
@@ -165,9 +162,7 @@ fn norm_lines(rows: &[ComparisonRow]) -> Vec<TableLine> {
     };
     let (states, input) = (Better::SmallerOfSameStates, Better::Smaller);
     let mut lines = vec![
-        of("d to e", "Largest gain from the unknown input to the error of the states", states, |g| {
-            &g.d_to_e
-        }),
+        of("d to e", "Largest gain from the unknown input to the error of the states", states, |g| &g.d_to_e),
         of("d to e_d", "Largest gain from the unknown input to the error of its own estimate", input, |g| {
             &g.d_to_e_d
         }),
@@ -235,9 +230,7 @@ fn scenario_lines(rows: &[ComparisonRow]) -> Vec<TableLine> {
                 let size = if unknown { errors.all_unknown } else { errors.all_states };
                 size.map_or_else(|| words("not estimated"), |size| number(of(&size)))
             };
-            lines.push(line((&label, meaning, Group::Scenario), rows, better, |d| {
-                simulated(d, cell)
-            }));
+            lines.push(line((&label, meaning, Group::Scenario), rows, better, |d| simulated(d, cell)));
         }
     }
     lines

@@ -221,9 +221,7 @@ fn value(ui: &mut Ui, rect: Rect, line: &TableLine, cell: &TableCell, verified: 
         LineKind::Status if verified => RichText::new(&cell.text).color(theme::good(ui)),
         LineKind::Status => RichText::new(&cell.text).color(theme::near(ui)),
         LineKind::Method => RichText::new(&cell.text).small(),
-        LineKind::Value | LineKind::Spectrum
-            if cell.value.is_none() && line.group != Group::Design =>
-        {
+        LineKind::Value | LineKind::Spectrum if cell.value.is_none() && line.group != Group::Design => {
             RichText::new(&cell.text).color(theme::faint(ui))
         }
         LineKind::Value | LineKind::Spectrum => RichText::new(&cell.text),

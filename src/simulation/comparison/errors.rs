@@ -52,7 +52,7 @@ pub(super) fn of(motion: &Motion, design: &Design) -> ScenarioErrors {
 }
 
 /// The sizes of each row of an error.
-fn sizes(t: &[f64], e: &DMatrix<f64>) -> Vec<ErrorSize> {
+pub(super) fn sizes(t: &[f64], e: &DMatrix<f64>) -> Vec<ErrorSize> {
     let half = t.last().copied().unwrap_or(0.0) / 2.0;
     let from = t.partition_point(|t| *t < half).min(e.ncols());
     let late = e.columns(from, e.ncols() - from);
@@ -69,7 +69,7 @@ fn sizes(t: &[f64], e: &DMatrix<f64>) -> Vec<ErrorSize> {
 }
 
 /// All of them as one; `None` of none, since nothing estimated is not the same as no error.
-fn together<'a>(sizes: impl Iterator<Item = &'a ErrorSize>) -> Option<ErrorSize> {
+pub(super) fn together<'a>(sizes: impl Iterator<Item = &'a ErrorSize>) -> Option<ErrorSize> {
     sizes.copied().reduce(|sum, size| ErrorSize {
         rms: sum.rms.hypot(size.rms),
         largest: sum.largest.max(size.largest),

@@ -22,16 +22,17 @@ pub(in crate::simulation) fn judged(
         Err(error) => ErrorGains::none(&error.to_string()),
     };
     let region = StabilityRegion::of(system.time == TimeDomain::Discrete);
-    Ok((ComparedDesign { gains, ..judged_by_itself(design, region)? }, errors.ok()))
+    Ok((judged_by_itself(design, region, gains)?, errors.ok()))
 }
 
-/// What a design tells of itself; nothing of its error in a plant.
+/// What a design tells of itself, beside the gains of its error; nothing of a scenario yet.
 ///
 /// # Errors
 /// When a decomposition fails its check.
 pub(super) fn judged_by_itself(
     design: &Design,
     region: StabilityRegion,
+    gains: ErrorGains,
 ) -> Result<ComparedDesign, NumericsError> {
     let spectrum = design.verification.spectrum.clone();
     let slowest = slowest(&spectrum, region);
@@ -54,8 +55,8 @@ pub(super) fn judged_by_itself(
         direct_gain: largest_gain(&design.observer.V)?,
         chosen_gain: chosen_gain.max(local_gain),
         guaranteed: guaranteed(&design.synthesis),
-        gains: ErrorGains::none("its error system was not looked at"),
-        scenario: Err("it was designed without a scenario".to_owned()),
+        gains,
+        scenario: Err("it has not run in a scenario".to_owned()),
     })
 }
 

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 pub use errors::{ErrorSize, ScenarioErrors};
 pub(super) use judged::judged;
-pub use network::compare_network;
+pub use network::{NetworkScenario, compare_network};
 pub use runs::{ComparedRun, Motion};
 
 use super::Scenario;
@@ -134,7 +134,7 @@ pub fn compare(
         if let Ok(row) = &mut comparison.rows[*row].outcome {
             row.scenario = errors_of;
         }
-        runs.push(ComparedRun { row: *row, errors: errors.clone(), motion: motion.ok() });
+        runs.push(ComparedRun { row: *row, errors: errors.clone(), motion: motion.ok(), network: None });
     }
     let linear = comparison.linear_part.then(|| LINEAR_PART.to_owned());
     comparison.notes = linear.into_iter().chain(runs::notes(&runs, &comparison)).collect();
