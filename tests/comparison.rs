@@ -2,12 +2,16 @@
 #![cfg(not(target_arch = "wasm32"))]
 #![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail by panicking")]
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
 use descry::document::comparison::{comparison_table, comparison_to_csv, comparison_to_markdown};
 use descry::document::{Document, read_document};
 use descry::numerics::{Complex64, Watch, complex_svd};
 use descry::observer::{Design, DesignError, ErrorGain, Method, assess, unknown_input_response};
 use descry::paper::{Role, comparison as figures, example};
-use descry::simulation::comparison::{Compared, ComparedDesign, Contender, compare};
+use descry::simulation::Memo;
+use descry::simulation::comparison::{Compared, ComparedDesign, Contender, compare, compare_with};
 use descry::system::Model;
 use nalgebra::DMatrix;
 use serde_json::Value;
@@ -343,4 +347,43 @@ fn the_figure_of_gains_shows_the_peaks_of_fast_and_unbalanced_designs() {
         let expected = 20.0 * norm.norm.log10();
         assert!((peak - expected).abs() < 0.01, "{name}: {peak} dB instead of {expected} dB");
     }
+}
+
+#[test]
+fn what_was_designed_before_is_designed_no_more_and_gives_the_same_table() {
+    let document = document();
+    let model = document.model().unwrap();
+    let scenario = document.scenario(&model.system);
+    let mut memo = Memo::new();
+    let table = |memo: &mut Memo, document: &Document| {
+        let designing = Arc::new(AtomicUsize::new(0));
+        let counted = Arc::clone(&designing);
+        // the solver of matrix inequalities reports what it does, and nobody else in between
+        let watch = Watch::new(move |_, what| {
+            counted.fetch_add(
+                usize::from(!what.starts_with("designing") && !what.starts_with("gains")),
+                Relaxed,
+            );
+            true
+        });
+        let contenders = document.contenders();
+        let found =
+            compare_with(memo, (&model, &scenario), &contenders, &document.tolerance, &watch).unwrap();
+        (found.comparison, designing.load(Relaxed))
+    };
+    let (first, solving) = table(&mut memo, &document);
+    let (again, solving_again) = table(&mut memo, &document);
+    assert_eq!(first, again, "the same table");
+    assert_eq!(first, table(&mut Memo::new(), &document).0, "as without a memory");
+    assert!(solving_again < solving, "{solving_again} steps instead of {solving}");
+    let mut changed = document.clone();
+    changed.kept[3].design.lmi.decay = Some(0.31);
+    let (other, solving_other) = table(&mut memo, &changed);
+    assert_eq!(other.rows[..4], first.rows[..4], "the other designs are as before");
+    assert!(
+        other.rows[4] != first.rows[4] && solving_other > solving_again,
+        "another demand, another design"
+    );
+    changed.tolerance.rank *= 2.0;
+    assert_eq!(table(&mut memo, &changed).0, table(&mut Memo::new(), &changed).0, "another tolerance");
 }

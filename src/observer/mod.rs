@@ -17,7 +17,7 @@ mod realization;
 mod synthesis;
 mod verify;
 
-pub use choice::{Assessment, DesignChoice, Method, Order, assess, conditions};
+pub use choice::{Assessment, DesignChoice, Method, Order, assess, assess_knowing, conditions};
 pub use condition::{Condition, Evidence, Formula, FormulaPart, PointEvidence, Verdict, Witness};
 pub use design::{Claim, Design, DesignError, NamedMatrix, chosen_poles, scaled_pole};
 pub use error_system::{

@@ -6,7 +6,8 @@ use super::free_report::FreeReport;
 use crate::document::{Document, Subject};
 use crate::numerics::Watch;
 use crate::paper::{ComparisonFigures, comparison as figures, network_comparison};
-use crate::simulation::comparison::{Comparison, compare};
+use crate::simulation::Memo;
+use crate::simulation::comparison::{Comparison, compare_with};
 
 /// Table and figures of a comparison.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -18,7 +19,11 @@ pub struct ComparisonView {
 }
 
 /// Compares the chosen design of a document with those that are kept; `None` when `watch` said stop.
-pub(super) fn compared(document: &Document, watch: &Watch) -> Option<Result<Box<ComparisonView>, String>> {
+pub(super) fn compared(
+    document: &Document,
+    memo: &mut Memo,
+    watch: &Watch,
+) -> Option<Result<Box<ComparisonView>, String>> {
     let contenders = document.contenders();
     let tolerance = &document.tolerance;
     let view = match document.subject() {
@@ -29,7 +34,7 @@ pub(super) fn compared(document: &Document, watch: &Watch) -> Option<Result<Box<
         }
         Ok(Subject::Model(model)) => {
             let scenario = document.scenario(&model.system);
-            let found = compare(&model, &scenario, &contenders, tolerance, watch)?;
+            let found = compare_with(memo, (&model, &scenario), &contenders, tolerance, watch)?;
             let figures = figures(&found, &model.system);
             let Comparison { rows, linear_part, notes } = found.comparison;
             // what stands in the scenario's place is not said again

@@ -43,7 +43,7 @@ pub use edit_coupling::coupling_forms;
 pub use edit_free::FreeEdit;
 pub use free_report::FreeReport;
 pub use history::History;
-pub use job::{JobReply, JobRequest, Outcome, Task, perform};
+pub use job::{JobReply, JobRequest, Outcome, Task, perform, perform_with};
 pub use model_edits::{GivenPart, LipschitzEdit, LipschitzMatrix, LmiEdit, PartitionEdit, Share};
 pub use network_edits::{CouplingForm, Measure, NetworkCell, NetworkEdit, NetworkSize};
 pub use poles::poles_text;

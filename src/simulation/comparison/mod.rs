@@ -12,9 +12,11 @@ pub(super) use judged::judged;
 pub use network::{NetworkScenario, compare_network};
 pub use runs::{ComparedRun, Motion};
 
-use super::Scenario;
+use std::sync::Arc;
+
+use super::{Memo, Scenario};
 use crate::numerics::{Complex64, Tolerance, Watch};
-use crate::observer::{DesignChoice, DesignError, ErrorGains, ErrorStateSpace, Method, Order, assess};
+use crate::observer::{DesignChoice, DesignError, ErrorGains, ErrorStateSpace, Method, Order};
 use crate::system::Model;
 
 /// A design that is to be compared.
@@ -105,6 +107,17 @@ pub fn compare(
     tolerance: &Tolerance,
     watch: &Watch,
 ) -> Option<Compared> {
+    compare_with(&mut Memo::new(), (model, scenario), contenders, tolerance, watch)
+}
+
+/// The same with a memory of what was designed before.
+pub fn compare_with(
+    memo: &mut Memo,
+    (model, scenario): (&Model, &Scenario),
+    contenders: &[Contender<'_>],
+    tolerance: &Tolerance,
+    watch: &Watch,
+) -> Option<Compared> {
     let count = contenders.len().max(1) as f32;
     let mut comparison = Comparison { linear_part: model.lipschitz.is_some(), ..Comparison::default() };
     let mut found = Vec::new();
@@ -113,28 +126,34 @@ pub fn compare(
         if !watch.go_on(0.0, &format!("designing {}", contender.name)) {
             return None;
         }
-        let assessed = assess(model, contender.choice, tolerance, &watch.part(0.0, 0.7));
-        let outcome = assessed.map_err(undecided).and_then(|assessment| assessment.outcome);
+        let assessed = memo.assess(model, contender.choice, tolerance, &watch.part(0.0, 0.7));
         if !watch.go_on(0.7, &format!("gains of {}", contender.name)) {
             return None;
         }
-        let outcome = outcome.and_then(|design| {
-            let (row, errors) = judged::judged(&model.system, &design, tolerance).map_err(undecided)?;
-            found.push((k, design, errors));
+        let outcome = assessed.map_err(undecided).and_then(|assessment| {
+            let judged = memo.judged(model, &assessment, tolerance).map_err(undecided)?;
+            let Some((row, errors)) = judged else {
+                return Err(assessment.outcome.as_ref().err().cloned().unwrap_or(DesignError::Cancelled));
+            };
+            found.push((k, Arc::clone(&assessment), errors));
             Ok(row)
         });
         let DesignChoice { method, order, .. } = *contender.choice;
         comparison.rows.push(ComparisonRow { name: contender.name.to_owned(), method, order, outcome });
     }
-    let designs: Vec<_> = found.iter().map(|(row, design, _)| (contenders[*row].name, design)).collect();
+    let found: Vec<_> = found
+        .iter()
+        .filter_map(|(row, assessment, errors)| Some((*row, assessment.outcome.as_ref().ok()?, errors)))
+        .collect();
+    let designs: Vec<_> = found.iter().map(|(row, design, _)| (contenders[*row].name, *design)).collect();
     let motions = runs::together((model, scenario), &designs, tolerance, &watch.part(0.8, 1.0))?;
     let mut runs = Vec::new();
-    for ((row, design, errors), motion) in found.iter().zip(motions) {
+    for ((row, design, errors), motion) in found.into_iter().zip(motions) {
         let errors_of = motion.as_ref().map(|motion| errors::of(motion, design)).map_err(Clone::clone);
-        if let Ok(row) = &mut comparison.rows[*row].outcome {
+        if let Ok(row) = &mut comparison.rows[row].outcome {
             row.scenario = errors_of;
         }
-        runs.push(ComparedRun { row: *row, errors: errors.clone(), motion: motion.ok(), network: None });
+        runs.push(ComparedRun { row, errors: errors.clone(), motion: motion.ok(), network: None });
     }
     let linear = comparison.linear_part.then(|| LINEAR_PART.to_owned());
     comparison.notes = linear.into_iter().chain(runs::notes(&runs, &comparison)).collect();
