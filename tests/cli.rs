@@ -413,6 +413,43 @@ fn a_lipschitz_term_is_not_silently_left_out() {
 }
 
 #[test]
+fn check_tells_the_light_of_every_method() {
+    let lights = |example: &str| -> Vec<(String, String)> {
+        let report = run(&["check", example]).json();
+        let methods = report["methods"].as_array().unwrap().clone();
+        assert!(methods.iter().all(|found| found["why"].as_str().unwrap().len() > 15), "{methods:?}");
+        let text = |value: &serde_json::Value| value.as_str().unwrap().to_owned();
+        methods.iter().map(|found| (text(&found["method"]), text(&found["light"]))).collect()
+    };
+    let with = |[integral, proportional, decoupled, attenuating, decentralized, hierarchical]: [&str; 6]| {
+        [
+            ("proportional-integral", integral),
+            ("proportional", proportional),
+            ("input-decoupled", decoupled),
+            ("h-infinity-lipschitz", attenuating),
+            ("decentralized", decentralized),
+            ("hierarchical", hierarchical),
+        ]
+        .map(|(method, light)| (method.to_owned(), light.to_owned()))
+    };
+    let expected = with(["exists", "exists", "exists", "exists", "missing", "missing"]);
+    assert_eq!(lights("example:comparison"), expected, "a plant without subsystems");
+    let expected = with(["missing", "missing", "missing", "missing", "missing", "exists"]);
+    assert_eq!(lights("example:network-ring"), expected, "a network that is never written as one system");
+    let expected = with(["missing", "missing", "missing", "exists", "missing", "missing"]);
+    assert_eq!(lights("example:h-infinity-lipschitz"), expected, "a plant with a Lipschitz term");
+}
+
+#[test]
+fn help_names_every_figure_that_is_no_figure_of_the_document() {
+    let help = run(&["help"]).out;
+    let ran = run(&["figures", "example:comparison", "--out", "/nowhere", "--only", "no-such-figure"]);
+    for id in ["comparison-states", "trade-off"] {
+        assert!(ran.err.contains(id) && help.contains(id), "{id}: {help}");
+    }
+}
+
+#[test]
 fn compare_reports_every_design_of_the_example() {
     let ran = run(&["compare", "example:comparison"]);
     assert_eq!((ran.code, ran.err.as_str()), (0, ""), "all designs exist and are verified");
@@ -478,8 +515,15 @@ fn compare_takes_a_network_that_is_never_expanded() {
     let ran = run(&["compare", "example:network-ring"]);
     assert_eq!(ran.code, 0, "{}", ran.err);
     let report = ran.json();
-    assert_eq!(report["designs"][0]["verdict"], "verified");
-    assert!(report["notes"][0].as_str().unwrap().contains("never expanded"), "{}", report["notes"]);
+    let design = &report["designs"][0];
+    assert_eq!(design["verdict"], "verified");
+    assert!(design["h_infinity_norms"]["noise to e"]["norm"].as_f64().unwrap() > 0.0, "{design}");
+    assert!(design["scenario"]["rms"]["all_states"].as_f64().unwrap() > 0.0, "{design}");
+    let out = folder("comparison-network");
+    for id in ["comparison-states", "comparison-errors", "comparison-gains"] {
+        let ran = run(&["figures", "example:network-ring", "--out", out.to_str().unwrap(), "--only", id]);
+        assert_eq!(ran.code, 0, "{id}: {}", ran.err);
+    }
 }
 
 #[test]

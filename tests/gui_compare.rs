@@ -3,6 +3,7 @@
 #![cfg(all(not(target_arch = "wasm32"), feature = "gui"))]
 #![expect(clippy::unwrap_used, reason = "helpers of tests may fail a test")]
 
+use descry::document::comparison::comparison_table;
 use descry::gui::App;
 use descry::observer::Method;
 use descry::platform::SynchronousRunner;
@@ -135,7 +136,7 @@ fn the_reasons_of_all_methods_are_told_without_hovering() {
     assert!(harness.query_by_label_contains(missing).is_none(), "folded at first");
     click(&mut harness, "Why: 4 of 6 methods exist");
     harness.get_by_label_contains(missing);
-    harness.get_by_label_contains("is seen when it is chosen");
+    harness.get_by_label_contains("is seen when it is designed");
 }
 
 #[test]
@@ -149,7 +150,25 @@ fn it_draws_wide_and_narrow_light_and_dark_with_one_and_with_many_designs() {
             for theme in [ThemeChoice::Light, ThemeChoice::Dark] {
                 harness.state_mut().command(Command::Show(Show::Theme(theme)));
                 settle(&mut harness);
-                assert!(harness.query_by_label("Keep this design").is_some(), "{key}, {size:?}, {theme:?}");
+                let what = format!("{key}, {size:?}, {theme:?}");
+                let view = harness.state().derived().comparison().unwrap().unwrap();
+                let table = comparison_table(&view.comparison);
+                assert_eq!(
+                    table.designs.len(),
+                    view.comparison.rows.len(),
+                    "a column for each design: {what}"
+                );
+                for label in ["Status", "Decay", "Spectrum", "noise to e"] {
+                    assert!(
+                        harness.query_all_by_label(label).next().is_some(),
+                        "the line {label} is drawn: {what}"
+                    );
+                }
+                let status = &table.lines[0].cells[0].text;
+                assert!(
+                    harness.query_all_by_label(status).next().is_some(),
+                    "its value, too: {what}, {status}"
+                );
             }
         }
     }

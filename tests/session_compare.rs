@@ -3,12 +3,12 @@
 #![expect(clippy::unwrap_used, reason = "helpers of tests fail by panicking")]
 
 use descry::document::limits::MAX_KEPT;
-use descry::document::{Document, read_document};
+use descry::document::{Document, PlantData, read_document};
 use descry::numerics::{Complex64, Watch};
 use descry::observer::{Method, Order};
 use descry::session::{
-    Command, CompareEdit, ComparedFigure, Derived, Edit, Field, Session, Show, Size, Tab, Task, perform,
-    update,
+    Command, CompareEdit, ComparedFigure, Derived, Edit, Field, NetworkEdit, NetworkSize, Session, Show,
+    Size, Tab, Task, perform, update,
 };
 
 fn session(key: &str) -> Session {
@@ -145,8 +145,99 @@ fn using_a_kept_design_exchanges_it_with_the_chosen_one() {
     update(&mut session, Command::Undo);
     update(&mut session, Command::Undo);
     assert_eq!(names(&session)[2], "PI, general", "as it was");
+    compare(&mut session, CompareEdit::Choose(2));
+    compare(&mut session, CompareEdit::Choose(2));
+    assert_eq!(names(&session)[2], "PI, general", "a name that a person gave comes back with its design");
     compare(&mut session, CompareEdit::Choose(99));
     assert_eq!(session.document().design, chosen, "no such design, no change");
+}
+
+#[test]
+fn of_two_equal_designs_one_is_enough() {
+    let mut session = session("comparison");
+    let kept = session.document().kept[1].clone();
+    // the chosen design has a place of its own: nothing is lost, and nothing stands there twice
+    compare(&mut session, CompareEdit::Keep);
+    assert_eq!(names(&session).len(), 5, "kept as the fifth");
+    compare(&mut session, CompareEdit::Choose(1));
+    assert_eq!(session.document().design, kept.design, "chosen");
+    assert_eq!(
+        names(&session),
+        ["proportional", "PI, general", "H-infinity", "Input-decoupled, full, 2 poles"],
+        "the one that was chosen stays where it is"
+    );
+    // the chosen design itself is kept: using it changes nothing, not even its name
+    compare(&mut session, CompareEdit::Keep);
+    let last = names(&session).len() - 1;
+    assert_eq!(names(&session)[last], "PI, full", "kept under its name");
+    let before = session.document().clone();
+    compare(&mut session, CompareEdit::Choose(last));
+    assert_eq!(session.document(), &before, "nothing to exchange");
+}
+
+#[test]
+fn a_name_of_the_greatest_length_still_finds_room_for_a_number() {
+    let mut session = session("comparison");
+    compare(&mut session, CompareEdit::Rename { kept: 1, name: "x".repeat(48) });
+    compare(&mut session, CompareEdit::Choose(1));
+    let other = session.document().kept[0].clone();
+    compare(&mut session, CompareEdit::Rename { kept: 0, name: "x".repeat(48) });
+    compare(&mut session, CompareEdit::Keep);
+    let name = names(&session)[4].clone();
+    assert!(name.ends_with("x (2)") && name.chars().count() <= 48, "{name}");
+    assert_eq!(
+        session.document().kept[0].design,
+        other.design,
+        "the other one has the name without a number"
+    );
+    assert!(read_document(&session.document_text()).is_ok(), "and the document reads back");
+}
+
+#[test]
+fn kept_designs_have_poles_enough_for_a_network_that_grows() {
+    let mut session = session("hierarchical");
+    compare(&mut session, CompareEdit::Keep);
+    edit(&mut session, Edit::Method(Method::Proportional));
+    edit(&mut session, Edit::Order(Order::Full));
+    compare(&mut session, CompareEdit::Keep);
+    edit(&mut session, Edit::Network(NetworkEdit::Size { of: NetworkSize::States, grow: true }));
+    let PlantData::Network(data) = &session.document().plant else { panic!("it is a network") };
+    let (n, states) = (data.a.shape().0, data.states());
+    let kept = &session.document().kept;
+    assert!(kept[0].design.local_poles.len() >= n, "a pole for each state of a subsystem: {:?}", kept[0]);
+    assert!(kept[1].design.poles.len() >= states, "a pole for each state: {:?}", kept[1]);
+}
+
+#[test]
+fn another_tolerance_that_changes_a_rank_provides_poles_for_all_designs() {
+    let text = r#"{"descry":1,"system":{"E":[[1,0],[0,1e-9]],"A":[[-1,0],[0,-1]],"C":[[1,0],[0,1]],"D":[[1],[0]]},
+        "design":{"method":"proportional","poles":[-2]},"tolerance":{"rank":1e9},
+        "compare":[{"name":"kept","design":{"method":"proportional","poles":[-3]}}]}"#;
+    let mut session = Session::new(read_document(text).unwrap());
+    edit(&mut session, Edit::RankTolerance(8.0));
+    assert_eq!(session.document().design.poles.len(), 2, "E has rank 2 now");
+    assert_eq!(session.document().kept[0].design.poles.len(), 2, "for the kept design, too");
+}
+
+#[test]
+fn a_document_with_a_name_that_cannot_be_is_refused_with_a_reason() {
+    let document = |name: &str| {
+        let text = format!(
+            r#"{{"descry":1,"system":{{"E":[[1]],"A":[[-1]],"C":[[1]]}},
+            "compare":[{{"name":"{name}","design":{{"method":"proportional","poles":[-2]}}}}]}}"#
+        );
+        read_document(&text)
+    };
+    for (name, why) in [
+        ("", "a name is needed"),
+        ("   ", "a name is needed"),
+        ("chosen", "the name of the chosen design"),
+        (&"x".repeat(20_000), "20000 characters, and at most 48"),
+    ] {
+        let error = document(name).unwrap_err().to_string();
+        assert!(error.contains(why) && error.contains("compare[1].name"), "{error}");
+    }
+    assert_eq!(document("  slow ").unwrap().kept[0].name, "slow", "without the spaces around it");
 }
 
 #[test]
@@ -180,8 +271,8 @@ fn lists_of_states_of_kept_designs_follow_a_plant_that_shrinks() {
     }
     let text = session.document_text();
     let read: Document = read_document(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
-    let lists = read.kept[0].design.lmi.decoupled.clone().unwrap_or_default();
-    assert!(lists.iter().flatten().all(|state| *state < 3), "only states that there are: {lists:?}");
+    let lists = read.kept[0].design.lmi.decoupled.clone();
+    assert_eq!(lists, Some(vec![vec![], vec![0]]), "x4 is gone, x1 is there");
 }
 
 /// Performs everything that is asked for; what was asked.
@@ -227,6 +318,48 @@ fn a_comparison_that_was_stopped_is_not_started_by_itself() {
     assert!(derived.next_request(&session).is_none(), "and waits");
     derived.again();
     assert_eq!(settle(&session, &mut derived), [Task::Compare], "until somebody asks again");
+}
+
+#[test]
+fn a_comparison_that_is_stopped_leaves_the_last_table() {
+    let mut session = session("comparison");
+    update(&mut session, Command::Show(Show::Tab(Tab::Compare)));
+    let mut derived = Derived::default();
+    settle(&session, &mut derived);
+    let rows = derived.comparison().unwrap().unwrap().comparison.rows.len();
+    compare(&mut session, CompareEdit::Discard(0));
+    let request = derived.next_request(&session).unwrap();
+    derived.receive(perform(&request, &Watch::none()).unwrap());
+    assert_eq!(derived.next_request(&session).unwrap().task, Task::Compare, "the analysis is there");
+    derived.cancelled();
+    let view = derived.comparison().unwrap().unwrap();
+    assert_eq!(view.comparison.rows.len(), rows, "the last results stay");
+    assert!(!derived.is_compared(session.revision()), "though they belong to an earlier document");
+    assert!(
+        derived.was_cancelled() && derived.next_request(&session).is_none(),
+        "and nothing starts by itself"
+    );
+    derived.again();
+    assert_eq!(settle(&session, &mut derived), [Task::Compare], "until somebody asks again");
+    assert_eq!(derived.comparison().unwrap().unwrap().comparison.rows.len(), rows - 1, "the new table");
+}
+
+#[test]
+fn nothing_else_starts_where_the_analysis_was_stopped() {
+    for tab in [Tab::Compare, Tab::TradeOff, Tab::Figures, Tab::States] {
+        let mut session = session("comparison");
+        update(&mut session, Command::Show(Show::Tab(tab)));
+        let mut derived = Derived::default();
+        assert_eq!(
+            derived.next_request(&session).unwrap().task,
+            Task::Analyse,
+            "{tab:?}: the analysis first"
+        );
+        derived.cancelled();
+        assert_eq!(derived.next_request(&session), None, "{tab:?}: the same design would be made again");
+        derived.again();
+        assert_eq!(settle(&session, &mut derived)[0], Task::Analyse, "{tab:?}: until somebody asks again");
+    }
 }
 
 #[test]

@@ -6,7 +6,9 @@ use crate::paper::{
     FigureRecipe, FigureSpec, NetworkProblem, Problem, compute_figure, compute_network_figure,
     trade_off_figure,
 };
+use crate::simulation::comparison::{Compared, NetworkScenario, compare_network};
 use crate::simulation::{Span, trade_off};
+use crate::system::Network;
 
 impl Document {
     /// Computes a figure for this document's plant, design and scenario.
@@ -44,6 +46,14 @@ impl Document {
         };
         let found = trade_off(&model, &self.design, &self.tolerance, watch);
         Ok(trade_off_figure(&found.ok_or("cancelled")??, model.system.time))
+    }
+
+    /// Compares the designs of this document for its network, which is too large to be written as one system; `None` when
+    /// `watch` said stop.
+    pub fn compare_network(&self, network: &Network, watch: &Watch) -> Option<Compared> {
+        let noisy = self.scenario.noise.iter().any(|signal| !signal.is_zero());
+        let scenario = NetworkScenario { x0: &self.initial_state(), span: self.span(), noisy };
+        compare_network(network, scenario, &self.contenders(), &self.tolerance, watch)
     }
 
     /// Horizon and samples of the scenario.

@@ -16,6 +16,8 @@ pub const MAX_SPARSE_ENTRIES: usize = 100_000;
 pub const MAX_POLES: usize = 300;
 /// Designs that are kept beside the chosen one.
 pub const MAX_KEPT: usize = 8;
+/// Characters of a kept design's name; more would not fit above a column.
+pub const MAX_NAME: usize = 48;
 /// Figures of a document, panels of a figure, series of a panel, runs of a figure.
 pub const MAX_FIGURES: usize = 60;
 /// Output samples of a simulation.

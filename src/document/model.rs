@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use super::entry::{Entry, EntryMatrix};
 use super::initial::InitialFormula;
-use super::limits::MAX_EXPANDED;
+use super::limits::{MAX_EXPANDED, MAX_NAME};
 use crate::numerics::Tolerance;
 use crate::observer::DesignChoice;
 use crate::paper::FigureRecipe;
@@ -49,6 +49,24 @@ pub struct KeptDesign {
     pub name: String,
     /// The choice.
     pub design: DesignChoice,
+}
+
+impl KeptDesign {
+    /// Why a text cannot be the name of a kept design, and what to do.
+    pub fn refused_name(name: &str) -> Option<String> {
+        let length = name.chars().count();
+        if name.trim().is_empty() {
+            Some("a name is needed, for example \"proportional\"".to_owned())
+        } else if name.trim() == CHOSEN {
+            Some("this is the name of the chosen design: take another".to_owned())
+        } else if length > MAX_NAME {
+            Some(format!(
+                "the name has {length} characters, and at most {MAX_NAME} fit above a column: take a shorter one"
+            ))
+        } else {
+            None
+        }
+    }
 }
 
 /// The two ways to give a system.

@@ -266,12 +266,16 @@ fn kept(cursor: &Cursor<'_>, sizes: &Sizes) -> Result<Vec<KeptDesign>, DocumentE
     for item in cursor.list(MAX_KEPT, "kept designs")? {
         let object = item.object(&["name", "design"])?;
         let name = object.need("name", "a name is needed, for example \"proportional\"")?;
-        if all.iter().any(|other| other.name == name.text().unwrap_or_default()) {
+        let text = name.text()?.trim();
+        if let Some(why) = KeptDesign::refused_name(text) {
+            return Err(name.error(why));
+        }
+        if all.iter().any(|other| other.name == text) {
             return Err(name.error("an earlier design has this name; names differ"));
         }
         let design =
             object.need("design", "the design is needed, for example { \"method\": \"proportional\" }")?;
-        all.push(KeptDesign { name: name.text()?.to_owned(), design: read_design(&design, sizes)? });
+        all.push(KeptDesign { name: text.to_owned(), design: read_design(&design, sizes)? });
     }
     Ok(all)
 }

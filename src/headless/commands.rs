@@ -5,12 +5,12 @@ use super::{Answer, BAD_INPUT, DONE, Files, Format, REFUSED, Refusal, Source, ne
 use crate::document::report::{check_report, trajectory_report};
 use crate::document::{Document, Subject, trajectory_to_csv};
 use crate::numerics::Watch;
-use crate::observer::{Assessment, Design, DesignError, assess, conditions};
+use crate::observer::{Assessment, Design, DesignError, Known, assess, conditions, lights};
 use crate::paper::Motion;
 use crate::simulation::Trajectory;
 use crate::system::Model;
 
-/// Properties and conditions.
+/// Properties, the lights of all methods, and conditions.
 pub(super) fn check(source: &Source, files: &dyn Files) -> Result<Answer, Refusal> {
     let Problem { document, subject } = load(source, files)?;
     let model = match subject {
@@ -24,7 +24,9 @@ pub(super) fn check(source: &Source, files: &dyn Files) -> Result<Answer, Refusa
         remarks.push(format!("condition {} does not hold: {}", condition.label, condition.summary));
     }
     let code = if remarks.is_empty() { DONE } else { REFUSED };
-    Ok(Answer { text: check_report(&document, &model, &conditions), remarks, code })
+    let known = Known { conditions: &conditions, outcome: None };
+    let lights = lights(&model, &document.design, &document.tolerance, Some(known));
+    Ok(Answer { text: check_report(&document, &model, &lights, &conditions), remarks, code })
 }
 
 /// Conditions, design and verification.

@@ -6,25 +6,27 @@ use crate::document::comparison::{comparison_to_csv, comparison_to_markdown};
 use crate::document::report::comparison_report;
 use crate::document::{Document, Subject};
 use crate::numerics::Watch;
-use crate::simulation::comparison::{Compared, Comparison, compare as compare_designs, compare_network};
-use crate::system::Model;
+use crate::simulation::comparison::{Compared, Comparison, compare as compare_designs};
+use crate::system::{Model, Network};
 
 /// The table of all designs.
 pub(super) fn compare(source: &Source, format: TableFormat, files: &dyn Files) -> Result<Answer, Refusal> {
     let problem = load(source, files)?;
     let comparison = match &problem.subject {
         Subject::Model(model) => compared(&problem.document, model)?.comparison,
-        Subject::Network(network) => {
-            let (contenders, tolerance) = (problem.document.contenders(), &problem.document.tolerance);
-            compare_network(network, &contenders, tolerance, &Watch::none()).ok_or_else(cancelled)?
-        }
+        Subject::Network(network) => compared_network(&problem.document, network)?.comparison,
     };
     let text = match format {
         TableFormat::Json => comparison_report(&problem.document, &comparison),
         TableFormat::Markdown => comparison_to_markdown(&comparison),
         TableFormat::Csv => comparison_to_csv(&comparison),
     };
-    Ok(Answer { text, remarks: remarks(&comparison), code: code(&comparison) })
+    let mut remarks = remarks(&comparison);
+    if format == TableFormat::Csv {
+        // a table of numbers has no place for sentences
+        remarks.extend(comparison.notes.iter().cloned());
+    }
+    Ok(Answer { text, remarks, code: code(&comparison) })
 }
 
 /// Compares the designs of a document.
@@ -32,6 +34,11 @@ pub(super) fn compared(document: &Document, model: &Model) -> Result<Compared, R
     let scenario = document.scenario(&model.system);
     let contenders = document.contenders();
     compare_designs(model, &scenario, &contenders, &document.tolerance, &Watch::none()).ok_or_else(cancelled)
+}
+
+/// Compares the designs of a document for a network that is too large to be written as one system.
+pub(super) fn compared_network(document: &Document, network: &Network) -> Result<Compared, Refusal> {
+    document.compare_network(network, &Watch::none()).ok_or_else(cancelled)
 }
 
 fn cancelled() -> Refusal {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::commands::simulated;
-use super::compare::compared;
+use super::compare::{compared, compared_network};
 use super::load::{Problem, load};
 use super::{Answer, DONE, Files, REFUSED, Refusal, Source, network};
 use crate::document::report::{FigureFiles, WrittenFigure, figures_report};
@@ -71,8 +71,12 @@ fn of_comparison(problem: &Problem, chosen: &dyn Fn(&str) -> bool) -> Result<Opt
     if chosen("") || !COMPARISON.iter().any(|id| chosen(id)) {
         return Ok(None);
     }
-    let model = problem.model()?;
-    let figures = paper::comparison(&compared(&problem.document, model)?, &model.system);
+    let figures = match &problem.subject {
+        Subject::Model(model) => paper::comparison(&compared(&problem.document, model)?, &model.system),
+        Subject::Network(network) => {
+            paper::network_comparison(&compared_network(&problem.document, network)?, network)
+        }
+    };
     let computed = figures.all().filter(|figure| chosen(&figure.id));
     Ok(Some(computed.map(|figure| (figure.id.clone(), figure.title.clone(), Ok(figure.clone()))).collect()))
 }

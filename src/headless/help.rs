@@ -10,7 +10,8 @@ descry: an interactive observatory for descriptor systems
 usage:
   descry                                   opens the window
   descry FILE.json                         opens the window with a document
-  descry check FILE                        properties of the system and conditions of the chosen method, as JSON
+  descry check FILE                        properties of the system, a light with its reason for every method
+                                           (exists, near, fails, missing) and conditions of the chosen one, as JSON
   descry design FILE                       conditions, design and its verification, as JSON
   descry simulate FILE [--format csv|json] plant and observer over time
   descry compare FILE [--format json|markdown|csv]
@@ -27,7 +28,8 @@ FILE is a document; `-` reads standard input, `example:KEY` takes an example.
 A document without figures has the standard ones: states, errors, unknown-input, bode.
 A network of more than 30 states is never written as one system: `simulate` then holds its whole and the subsystems
 that are estimated. Estimates and errors of other subsystems are left out, whatever the size.
-`figures --only comparison-states` (-errors, -unknown-input, -gains) draws all designs of `compare` together.
+`figures --only comparison-states` (-errors, -unknown-input, -gains) draws all designs of `compare` together;
+`figures --only trade-off` draws designs along a sweep of the bandwidth factor, or of the demanded decay.
 
 exit codes:
   0  the design exists and is verified (check: all needed conditions hold; compare: all designs are)

@@ -4,25 +4,12 @@ use super::{Files, Refusal, Source};
 use crate::document::limits::MAX_BYTES;
 use crate::document::{Document, Subject, nearest, read_document};
 use crate::paper::{EXAMPLES, Example, example};
-use crate::system::Model;
 
 /// A document and the plant that it describes.
 #[derive(Debug)]
 pub(super) struct Problem {
     pub(super) document: Document,
     pub(super) subject: Subject,
-}
-
-impl Problem {
-    /// The plant as one system.
-    pub(super) fn model(&self) -> Result<&Model, Refusal> {
-        match &self.subject {
-            Subject::Model(model) => Ok(model),
-            Subject::Network(_) => {
-                Err(Refusal::refused("the network is too large to be written as one system"))
-            }
-        }
-    }
 }
 
 /// Reads a document.

@@ -4,7 +4,7 @@ use super::commands::{code_of, unverified};
 use super::{Answer, DONE, Format, REFUSED, Refusal};
 use crate::document::report::{design_report, network_check_report, network_motion_report};
 use crate::document::{Document, Sizes, motion_to_csv};
-use crate::observer::{Assessment, Design, assess_network, hierarchical};
+use crate::observer::{Assessment, Design, assess_network, hierarchical, network_lights};
 use crate::paper::{FigureSpec, Motion, standard_network};
 use crate::simulation::simulate_network;
 use crate::system::Network;
@@ -12,20 +12,23 @@ use crate::system::Network;
 /// Most states of subsystems that a trajectory of a large network holds.
 const MOST_STATES: usize = 500;
 
-/// Structure and conditions.
+/// Structure, the lights of all methods, and conditions.
 pub(super) fn check(document: &Document, network: &Network) -> Result<Answer, Refusal> {
     let unsuitable = document.design.method.missing_for(network);
+    let found = hierarchical::conditions(network, &document.tolerance).map_err(|error| error.to_string());
+    let lights = network_lights(network, found.as_deref().map_err(String::as_str), None);
     let conditions = match unsuitable {
         Some(_) => Vec::new(),
-        None => hierarchical::conditions(network, &document.tolerance)
-            .map_err(|error| Refusal::refused(format!("the conditions cannot be decided: {error}")))?,
+        None => {
+            found.map_err(|error| Refusal::refused(format!("the conditions cannot be decided: {error}")))?
+        }
     };
     let mut remarks: Vec<String> = unsuitable.into_iter().collect();
     for condition in conditions.iter().filter(|c| c.needed && !c.verdict.holds()) {
         remarks.push(format!("condition {} does not hold: {}", condition.label, condition.summary));
     }
     let code = if remarks.is_empty() { DONE } else { REFUSED };
-    Ok(Answer { text: network_check_report(document, network, &conditions), remarks, code })
+    Ok(Answer { text: network_check_report(document, network, &lights, &conditions), remarks, code })
 }
 
 /// Conditions and design of the document's choice.

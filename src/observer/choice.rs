@@ -280,11 +280,23 @@ pub fn assess(
     watch: &Watch,
 ) -> Result<Assessment, PropertyError> {
     let conditions = conditions(model, choice, tolerance)?;
+    Ok(assess_knowing(model, choice, conditions, tolerance, watch))
+}
+
+/// Designs when the conditions hold, which were asked before; where poles are placed, those of another choice of the same
+/// method and order are the same.
+pub fn assess_knowing(
+    model: &Model,
+    choice: &DesignChoice,
+    conditions: Vec<Condition>,
+    tolerance: &Tolerance,
+    watch: &Watch,
+) -> Assessment {
     let outcome = match choice.method.missing(model) {
         Some(why) => Err(DesignError::Unsuitable(why)),
         None => designed(model, choice, &conditions, tolerance, watch),
     };
-    Ok(Assessment { choice: choice.clone(), conditions, outcome })
+    Assessment { choice: choice.clone(), conditions, outcome }
 }
 
 /// The design of a method that has the data it needs.

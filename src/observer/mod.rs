@@ -8,6 +8,7 @@ mod error_system;
 pub mod h_infinity;
 pub mod hierarchical;
 pub mod input_decoupled;
+mod light;
 mod lmi_choice;
 mod network_choice;
 pub mod proportional;
@@ -16,10 +17,13 @@ mod realization;
 mod synthesis;
 mod verify;
 
-pub use choice::{Assessment, DesignChoice, Method, Order, assess, conditions};
+pub use choice::{Assessment, DesignChoice, Method, Order, assess, assess_knowing, conditions};
 pub use condition::{Condition, Evidence, Formula, FormulaPart, PointEvidence, Verdict, Witness};
 pub use design::{Claim, Design, DesignError, NamedMatrix, chosen_poles, scaled_pole};
-pub use error_system::{ErrorGain, ErrorGains, ErrorStateSpace, ErrorSystemError, error_system};
+pub use error_system::{
+    ErrorGain, ErrorGains, ErrorStateSpace, ErrorSystemError, error_system, network_error_system,
+};
+pub use light::{Known, Light, MethodLight, lights, network_lights};
 pub use lmi_choice::{GivenObserver, LmiChoice};
 pub use network_choice::assess_network;
 pub use realization::{Injection, LinearObserver};

@@ -10,6 +10,7 @@ mod recipe;
 mod run;
 pub mod standard;
 mod standard_comparison;
+mod standard_comparison_network;
 pub mod standard_network;
 mod standard_trade_off;
 
@@ -23,6 +24,7 @@ pub use recipe::{
 };
 pub use run::{NetworkProblem, Problem};
 pub use standard_comparison::{ComparisonFigures, comparison, design_colour};
+pub use standard_comparison_network::network_comparison;
 pub use standard_trade_off::trade_off_figure;
 
 /// An example that comes with the program, as the text of a document.

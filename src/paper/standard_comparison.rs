@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::compute::{bode_frequencies, samples, time_label};
 use super::figure::{Axis, FigureSpec, Panel, Role, Series};
 use super::recipe::Quantity;
-use crate::numerics::{Complex64, complex_svd};
+use crate::numerics::{Complex64, complex_svd, eigenvalues};
 use crate::observer::{ErrorGain, ErrorGains, ErrorStateSpace};
 use crate::simulation::Trajectory;
 use crate::simulation::comparison::{Compared, ComparedRun};
@@ -33,7 +33,7 @@ impl ComparisonFigures {
 }
 
 /// Number of the colour of true values.
-const TRUTH: usize = 7;
+pub(super) const TRUTH: usize = 7;
 /// Numbers of the colours of designs: first those with a good contrast on any ground.
 const DESIGNS: [usize; 7] = [0, 1, 2, 3, 5, 4, 6];
 
@@ -43,7 +43,7 @@ pub fn design_colour(row: usize) -> usize {
 }
 
 /// The stroke of a design: dashes where colours begin again, so that no two designs look the same.
-fn role_of(row: usize, first: Role) -> Role {
+pub(super) fn role_of(row: usize, first: Role) -> Role {
     if row < DESIGNS.len() { first } else { Role::Other }
 }
 
@@ -78,13 +78,13 @@ pub fn comparison(compared: &Compared, system: &DescriptorSystem) -> ComparisonF
     }
 }
 
-struct Draw<'a> {
-    compared: &'a Compared,
-    time: TimeDomain,
+pub(super) struct Draw<'a> {
+    pub(super) compared: &'a Compared,
+    pub(super) time: TimeDomain,
 }
 
 impl Draw<'_> {
-    fn name(&self, run: &ComparedRun) -> String {
+    pub(super) fn name(&self, run: &ComparedRun) -> String {
         self.compared.comparison.rows.get(run.row).map_or_else(String::new, |row| row.name.clone())
     }
 
@@ -126,10 +126,9 @@ impl Draw<'_> {
     }
 
     /// Whether a design estimates a state, by its row in the table.
-    fn estimated(&self, run: &ComparedRun, state: usize) -> bool {
+    pub(super) fn estimated(&self, run: &ComparedRun, state: usize) -> bool {
         let row = self.compared.comparison.rows.get(run.row).and_then(|row| row.outcome.as_ref().ok());
-        let errors = row.and_then(|row| row.scenario.as_ref().ok());
-        errors.is_none_or(|errors| errors.states.get(state).is_none_or(Option::is_some))
+        row.is_some_and(|row| row.estimated.binary_search(&state).is_ok())
     }
 
     fn time_panel(&self, title: &str, series: Vec<Series>) -> Panel {
@@ -143,7 +142,7 @@ impl Draw<'_> {
 }
 
 /// A figure of the panels that have curves.
-fn figure((id, title): (&str, &str), caption: &str, panels: Vec<Panel>) -> Option<FigureSpec> {
+pub(super) fn figure((id, title): (&str, &str), caption: &str, panels: Vec<Panel>) -> Option<FigureSpec> {
     let panels: Vec<Panel> = panels.into_iter().filter(|panel| !panel.series.is_empty()).collect();
     (!panels.is_empty()).then(|| FigureSpec {
         id: id.to_owned(),
@@ -172,7 +171,7 @@ const PATHS: [Path; 4] = [
 ];
 
 /// The largest singular values of the error systems over frequency, whose maxima are the norms of the table.
-fn gains(draw: &Draw<'_>) -> Option<FigureSpec> {
+pub(super) fn gains(draw: &Draw<'_>) -> Option<FigureSpec> {
     let range = range(draw)?;
     let frequencies = bode_frequencies(range);
     let mut panels = vec![Vec::new(); PATHS.len()];
@@ -182,14 +181,17 @@ fn gains(draw: &Draw<'_>) -> Option<FigureSpec> {
         let (Some(errors), Some(row)) = (&run.errors, row) else { continue };
         for (panel, path) in panels.iter_mut().zip(PATHS) {
             match (path.of)(&row.gains) {
-                ErrorGain::Norm(_) => panel.push(Series {
+                ErrorGain::Norm(found) => panel.push(Series {
                     name: draw.name(run),
                     role: role_of(run.row, Role::Response),
                     colour: design_colour(run.row),
-                    points: curve(errors, path, &frequencies),
+                    points: curve(errors, path, &with_peak(&frequencies, range, found.frequency)),
                 }),
                 ErrorGain::Decoupled => silent.push(format!("{}: {}", draw.name(run), path.title)),
-                ErrorGain::NotEstimated | ErrorGain::NoInput | ErrorGain::NotFinite(_) => {}
+                ErrorGain::NotEstimated
+                | ErrorGain::NoInput
+                | ErrorGain::NotFinite(_)
+                | ErrorGain::NotComputed(_) => {}
             }
         }
     }
@@ -208,23 +210,46 @@ fn gains(draw: &Draw<'_>) -> Option<FigureSpec> {
     Some(figure)
 }
 
-/// Two decades around the speeds of all observers, whole decades.
+/// Slower modes than this share of the fastest are rounding of a mode at zero.
+const SLOWEST: f64 = 1e-9;
+
+/// Two decades around the modes of all error systems and one around all peaks, whole decades.
 fn range(draw: &Draw<'_>) -> Option<[f64; 2]> {
+    let runs = || draw.compared.runs.iter().filter_map(|run| Some((run, run.errors.as_ref()?)));
+    runs().next()?;
     if draw.time == TimeDomain::Discrete {
-        return draw
-            .compared
-            .runs
-            .iter()
-            .any(|run| run.errors.is_some())
-            .then_some([1e-3, std::f64::consts::PI]);
+        return Some([1e-3, std::f64::consts::PI]);
     }
-    let errors = draw.compared.runs.iter().filter_map(|run| run.errors.as_ref());
-    let speed =
-        |errors: &ErrorStateSpace| errors.a.norm().max(1e-3) / (errors.a.nrows().max(1) as f64).sqrt();
-    let decades: Vec<f64> = errors.map(|errors| speed(errors).log10().round()).collect();
-    let low = decades.iter().copied().reduce(f64::min)?;
-    let high = decades.iter().copied().reduce(f64::max)?;
-    Some([10_f64.powf(low - 3.0), 10_f64.powf(high + 2.0)])
+    let modes = runs().flat_map(|(_, errors)| eigenvalues(&errors.a).unwrap_or_default());
+    let mut speeds: Vec<f64> = modes.map(Complex64::norm).filter(|speed| *speed > 0.0).collect();
+    let fastest = speeds.iter().copied().fold(0.0, f64::max);
+    speeds.retain(|speed| *speed > SLOWEST * fastest);
+    let rows = draw.compared.comparison.rows.iter().filter_map(|row| row.outcome.as_ref().ok());
+    let peaks = rows.flat_map(|row| PATHS.map(|path| peak((path.of)(&row.gains)))).flatten();
+    let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
+    let around = speeds.into_iter().map(|speed| (speed, 100.0)).chain(peaks.map(|peak| (peak, 10.0)));
+    for (at, factor) in around {
+        (low, high) = (low.min(at / factor), high.max(at * factor));
+    }
+    // without modes and peaks nothing depends on the frequency
+    let [low, high] = if low.is_finite() { [low, high] } else { [1e-2, 1e2] };
+    Some([10_f64.powf(low.log10().floor()), 10_f64.powf(high.log10().ceil())])
+}
+
+/// The frequency of a peak that a logarithmic axis can show.
+fn peak(gain: &ErrorGain) -> Option<f64> {
+    match gain {
+        ErrorGain::Norm(found) => Some(found.frequency).filter(|at| *at > 0.0 && at.is_finite()),
+        _ => None,
+    }
+}
+
+/// The frequencies of a curve with the one of its peak, which may be too narrow for the others.
+fn with_peak(frequencies: &[f64], [low, high]: [f64; 2], peak: f64) -> Vec<f64> {
+    let mut all = frequencies.to_vec();
+    all.extend((low..=high).contains(&peak).then_some(peak));
+    all.sort_by(f64::total_cmp);
+    all
 }
 
 /// Gains in dB; gaps where there is none.

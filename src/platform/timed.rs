@@ -5,10 +5,15 @@ use std::sync::{Mutex, PoisonError};
 use web_time::{Duration, Instant};
 
 use crate::numerics::Watch;
-use crate::session::{JobReply, JobRequest, Outcome, perform};
+use crate::session::{JobReply, JobRequest, Outcome, perform_with};
+use crate::simulation::Memo;
 
 /// Time between two reports: each of them draws the screen anew.
 const BETWEEN_REPORTS: Duration = Duration::from_millis(50);
+
+/// Designs of the computations before. One that runs takes it along, so that two never wait for each other: one that is
+/// slow to stop leaves the next without a memory, which costs time and nothing else.
+static MEMO: Mutex<Memo> = Mutex::new(Memo::new());
 
 /// Performs a request; gives the reply and its duration in milliseconds, or `None` when `report` said stop.
 ///
@@ -34,7 +39,10 @@ pub(super) fn perform_timed(
         let outcome = Outcome::Progress { fraction, what: what.to_owned() };
         report(JobReply { id, revision, outcome })
     });
-    let reply = perform(request, &here(watch))?;
+    let mut memo = std::mem::take(&mut *MEMO.lock().unwrap_or_else(PoisonError::into_inner));
+    let reply = perform_with(&mut memo, request, &here(watch));
+    *MEMO.lock().unwrap_or_else(PoisonError::into_inner) = memo;
+    let reply = reply?;
     Some((reply, start.elapsed().as_secs_f64() * 1e3))
 }
 

@@ -5,11 +5,11 @@ use serde::{Deserialize, Serialize};
 use super::analysis_network as of_network;
 use super::analysis_properties::properties;
 use super::free_report::FreeReport;
-use super::light::lights;
 use crate::document::{Document, Subject};
 use crate::numerics::{Complex64, Watch};
-use crate::observer::{Assessment, Method, Verdict, assess};
+use crate::observer::{Assessment, Known, MethodLight, Verdict, lights};
 use crate::paper::{FigureSpec, Motion, standard};
+use crate::simulation::Memo;
 use crate::system::Model;
 use crate::system::properties::finite_eigenvalues;
 
@@ -45,30 +45,6 @@ pub struct Property {
     pub verdict: Option<Verdict>,
 }
 
-/// Whether a method can be used.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct MethodLight {
-    /// The method.
-    pub method: Method,
-    /// The light.
-    pub light: Light,
-    /// Why.
-    pub why: String,
-}
-
-/// A light of a method.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Light {
-    /// Its conditions hold.
-    Exists,
-    /// They hold narrowly.
-    Near,
-    /// One fails.
-    Fails,
-    /// Data are missing.
-    Missing,
-}
-
 /// The standard views of a simulation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Simulation {
@@ -92,6 +68,11 @@ pub struct Simulation {
 
 /// Computes everything that follows from a document; `None` when `watch` said stop.
 pub fn analyse(document: &Document, watch: &Watch) -> Option<Analysis> {
+    analyse_with(&mut Memo::new(), document, watch)
+}
+
+/// The same with a memory of earlier designs.
+pub(super) fn analyse_with(memo: &mut Memo, document: &Document, watch: &Watch) -> Option<Analysis> {
     let tolerance = &document.tolerance;
     let model = match document.subject() {
         Ok(Subject::Model(model)) => model,
@@ -111,9 +92,12 @@ pub fn analyse(document: &Document, watch: &Watch) -> Option<Analysis> {
     if !watch.go_on(0.1, "conditions") {
         return None;
     }
-    let assessment =
-        assess(&model, &document.design, tolerance, &watch.part(0.1, 0.8)).map_err(|error| error.to_string());
-    let methods = lights(&model, document, assessment.as_ref());
+    let assessment = memo
+        .assess(&model, &document.design, tolerance, &watch.part(0.1, 0.8))
+        .map(|found| (*found).clone())
+        .map_err(|error| error.to_string());
+    let known = assessment.as_ref().ok().map(Known::from);
+    let methods = lights(&model, &document.design, tolerance, known);
     if !watch.go_on(0.8, "simulation") {
         return None;
     }

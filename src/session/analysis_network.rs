@@ -1,11 +1,10 @@
 //! What follows from a network: its structure and what it shows as a whole; of a large one without ever expanding it.
 
-use super::analysis::{Analysis, Light, MethodLight, Property, Simulation};
-use super::light::judged;
+use super::analysis::{Analysis, Property, Simulation};
 use crate::document::Document;
 use crate::numerics::{Complex64, RankDecision, Tolerance, Watch, eigenvalues, null_space};
 use crate::observer::hierarchical::{Hierarchy, conditions};
-use crate::observer::{Assessment, Condition, Method, Verdict, assess_network};
+use crate::observer::{Assessment, Condition, Method, Verdict, assess_network, network_lights};
 use crate::paper::{Motion, Quantity, standard_network};
 use crate::simulation::simulate_network;
 use crate::system::Network;
@@ -30,21 +29,13 @@ pub(super) fn analyse(document: &Document, network: &Network, watch: &Watch) -> 
         None => conditions(network, tolerance).map_err(|error| error.to_string()),
     };
     properties.extend(found.iter().flatten().filter_map(pair));
-    let methods = Method::ALL.iter().map(|method| light(*method, network, &found)).collect();
+    let outcome = assessment.as_ref().ok().filter(|_| chosen).map(|found| &found.outcome);
+    let methods = network_lights(network, found.as_deref().map_err(String::as_str), outcome);
     if !watch.go_on(0.6, "simulation") {
         return None;
     }
     let simulation = simulation(document, network, assessment.as_ref());
     Some(Analysis { properties, plant_eigenvalues, methods, assessment, simulation, bode: None, free: None })
-}
-
-fn light(method: Method, network: &Network, found: &Result<Vec<Condition>, String>) -> MethodLight {
-    let light = |light, why: String| MethodLight { method, light, why };
-    match (method.missing_for(network), found) {
-        (Some(why), _) => light(Light::Missing, why),
-        (None, Ok(found)) => judged(method, found),
-        (None, Err(error)) => light(Light::Fails, error.clone()),
-    }
 }
 
 fn property(name: &str, value: String, detail: String) -> Property {

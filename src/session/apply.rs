@@ -24,7 +24,7 @@ pub(super) fn apply(session: &mut Session, edit: Edit) {
     let exchanged = matches!(&edit, Edit::Compare(edit) if edit_compare::exchanges(edit));
     let waiting = if ends { waiting_fields(&edit) } else { None };
     let mut document = (*session.document).clone();
-    let (edited, told) = changed(&mut document, &session.document, edit);
+    let (edited, told) = changed(&mut document, session, edit);
     match edited {
         Edited::Done => {
             if let Some(field) = field {
@@ -85,16 +85,19 @@ fn overwritten(edit: &Edit) -> Overwritten {
 }
 
 /// The edit and what follows from it. An entry that the partition does not allow is a draft: its text stays.
-fn changed(document: &mut Document, before: &Document, edit: Edit) -> (Edited, Vec<String>) {
+fn changed(document: &mut Document, session: &Session, edit: Edit) -> (Edited, Vec<String>) {
     let typed = match &edit {
         Edit::Cell { cell, text } => Some((Field::Cell(*cell), text.clone())),
         _ => None,
     };
-    let edited = change(document, edit);
+    let edited = match edit {
+        Edit::Compare(edit) => edit_compare::change(document, edit, &session.history),
+        edit => change(document, edit),
+    };
     if !matches!(edited, Edited::Done) {
         return (edited, Vec::new());
     }
-    match (follow(document, before), typed) {
+    match (follow(document, &session.document), typed) {
         (Ok(told), _) => (Edited::Done, told),
         (Err(error), Some((field, text))) => (Edited::Draft(field, Draft { text, error }), Vec::new()),
         (Err(error), None) => (Edited::Refused(error), Vec::new()),
@@ -293,6 +296,8 @@ fn change(document: &mut Document, edit: Edit) -> Edited {
         Edit::RankTolerance(rank) => {
             if rank.is_finite() {
                 document.tolerance.rank = rank.clamp(1.0, 1e12);
+                // another rank of E asks for another number of poles
+                poles::provide(document);
             }
         }
         Edit::Lmi(edit) => return edit_lmi::change(document, edit),
@@ -303,7 +308,8 @@ fn change(document: &mut Document, edit: Edit) -> Edited {
         Edit::Partition(edit) => return edit_partition::change(document, edit),
         Edit::Lipschitz(edit) => return edit_lipschitz::change(document, edit),
         Edit::Free(edit) => return edit_free::change(document, edit),
-        Edit::Compare(edit) => return edit_compare::change(document, edit),
+        // what is kept depends on the history, too
+        Edit::Compare(_) => {}
         Edit::Network(edit) => return edit_network::change(document, edit),
         Edit::Initial { .. }
         | Edit::InitialFormula(_)

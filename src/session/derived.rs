@@ -21,8 +21,8 @@ pub struct Derived {
     running: Option<JobRequest>,
     progress: (f32, String),
     failure: Option<String>,
-    /// Revision whose analysis failed or was cancelled, so that it is not started again.
-    given_up: Option<u64>,
+    /// What failed or was cancelled, with its revision, so that it is not started again by itself.
+    given_up: Vec<(u64, Task)>,
     elapsed_ms: Option<f64>,
     next_id: u64,
 }
@@ -94,13 +94,16 @@ impl Derived {
 
     /// The next request, when nothing runs and something is out of date.
     ///
-    /// The analysis comes first; then the comparison or the chosen figure, when it is on screen.
+    /// The analysis comes first; then the comparison or the chosen figure, when it is on screen. Without an analysis, because
+    /// it was given up, the others wait: they would begin with the same design.
     pub fn next_request(&mut self, session: &Session) -> Option<JobRequest> {
         if self.running.is_some() {
             return None;
         }
         let revision = session.revision();
-        let task = if !self.is_current(revision) && self.given_up != Some(revision) {
+        let given_up =
+            |task: &Task| self.given_up.iter().any(|(of, broken)| *of == revision && broken == task);
+        let task = if !self.is_current(revision) {
             Task::Analyse
         } else if session.view().tab == Tab::Compare {
             if self.is_compared(revision) {
@@ -120,6 +123,9 @@ impl Derived {
             }
             Task::Figure { id }
         };
+        if given_up(&task) {
+            return None;
+        }
         self.next_id += 1;
         let request = JobRequest { id: self.next_id, revision, document: session.document_text(), task };
         self.progress = (0.0, String::new());
@@ -163,22 +169,26 @@ impl Derived {
 
     /// What was stopped or broke off may start again.
     pub fn again(&mut self) {
-        self.given_up = None;
+        self.given_up.clear();
         self.failure = None;
         self.figures.retain(|_, (_, figure)| figure.is_ok());
         self.comparison.take_if(|(_, found)| found.is_err());
     }
 
+    /// Gives the running computation up. The last results stay; only where there are none, the reason takes their place.
     fn break_off(&mut self, why: String) {
-        match self.running.as_ref() {
-            Some(JobRequest { task: Task::Analyse, revision, .. }) => self.given_up = Some(*revision),
-            Some(JobRequest { task: Task::Figure { id }, revision, .. }) => {
-                self.figures.insert(id.clone(), (*revision, Err(why.clone())));
+        if let Some(JobRequest { task, revision, .. }) = self.running.take() {
+            match &task {
+                Task::Figure { id } if !self.figures.get(id).is_some_and(|(_, figure)| figure.is_ok()) => {
+                    self.figures.insert(id.clone(), (revision, Err(why.clone())));
+                }
+                Task::Compare if !self.comparison.as_ref().is_some_and(|(_, found)| found.is_ok()) => {
+                    self.comparison = Some((revision, Err(why.clone())));
+                }
+                Task::Analyse | Task::Figure { .. } | Task::Compare => {}
             }
-            Some(JobRequest { task: Task::Compare, revision, .. }) => {
-                self.comparison = Some((*revision, Err(why.clone())));
-            }
-            None => {}
+            self.given_up.retain(|(of, _)| *of == revision);
+            self.given_up.push((revision, task));
         }
         self.failure = Some(why);
     }

@@ -1,9 +1,10 @@
 //! Keeping designs beside the chosen one, and exchanging them.
 
+use super::history::History;
 use super::poles;
 use super::state::{Draft, Field};
 use super::update::Edited;
-use crate::document::limits::MAX_KEPT;
+use crate::document::limits::{MAX_KEPT, MAX_NAME};
 use crate::document::{CHOSEN, Document, KeptDesign};
 use crate::observer::{DesignChoice, Method};
 
@@ -21,32 +22,21 @@ pub enum CompareEdit {
     },
     /// Forgets a kept design.
     Discard(usize),
-    /// Makes a kept design the chosen one and keeps the chosen one in its place.
+    /// Makes a kept design the chosen one and keeps the chosen one in its place, unless it has a place of its own.
     Choose(usize),
 }
 
-/// Characters of a name; more would not fit above a column.
-const MOST_CHARACTERS: usize = 48;
-
-/// Changes the kept designs of a document.
-pub(super) fn change(document: &mut Document, edit: CompareEdit) -> Edited {
+/// Changes the kept designs of a document; a design that was kept before gets its name back.
+pub(super) fn change(document: &mut Document, edit: CompareEdit, history: &History) -> Edited {
     match edit {
-        CompareEdit::Keep => return keep(document),
+        CompareEdit::Keep => return keep(document, history),
         CompareEdit::Rename { kept, name } => return rename(document, kept, &name),
         CompareEdit::Discard(kept) => {
             if kept < document.kept.len() {
                 document.kept.remove(kept);
             }
         }
-        CompareEdit::Choose(kept) => {
-            // of two equal designs one is enough
-            let name = unique(document, &name_of(document), Some(kept));
-            if let Some(other) = document.kept.get_mut(kept) {
-                std::mem::swap(&mut other.design, &mut document.design);
-                other.name = name;
-                poles::provide(document);
-            }
-        }
+        CompareEdit::Choose(kept) => choose(document, kept, history),
     }
     Edited::Done
 }
@@ -61,36 +51,51 @@ pub(super) fn belongs_to_a_design(field: &Field) -> bool {
     matches!(field, Field::Poles | Field::Rows(..) | Field::Given(_) | Field::KeptName(_))
 }
 
-fn keep(document: &mut Document) -> Edited {
+/// Why the chosen design cannot be kept beside the others, as a sentence without its full stop.
+pub fn why_not_kept(document: &Document) -> Option<String> {
     if let Some(same) = document.kept.iter().find(|kept| kept.design == document.design) {
-        return Edited::Refused(format!(
-            "the chosen design is kept already, as \"{}\": change it first",
-            same.name
-        ));
+        return Some(format!("the chosen design is kept already, as \"{}\": change it first", same.name));
     }
-    if document.kept.len() >= MAX_KEPT {
-        return Edited::Refused(format!(
-            "{MAX_KEPT} designs are kept, and no more can be: discard one of them first"
-        ));
+    (document.kept.len() >= MAX_KEPT)
+        .then(|| format!("{MAX_KEPT} designs are kept, and no more can be: discard one of them first"))
+}
+
+fn keep(document: &mut Document, history: &History) -> Edited {
+    if let Some(why) = why_not_kept(document) {
+        return Edited::Refused(why);
     }
-    let name = unique(document, &name_of(document), None);
+    let name = unique(document, &name_of(document, history), None);
     document.kept.push(KeptDesign { name, design: document.design.clone() });
     Edited::Done
 }
 
+/// Exchanges the chosen design with a kept one; of two equal designs one is enough.
+fn choose(document: &mut Document, kept: usize, history: &History) {
+    let Some(wanted) = document.kept.get(kept) else { return };
+    if wanted.design == document.design {
+        return;
+    }
+    if document.kept.iter().any(|other| other.design == document.design) {
+        document.design = document.kept.remove(kept).design;
+    } else {
+        let name = unique(document, &name_of(document, history), Some(kept));
+        let place = &mut document.kept[kept];
+        std::mem::swap(&mut place.design, &mut document.design);
+        place.name = name;
+    }
+    poles::provide(document);
+}
+
 fn rename(document: &mut Document, index: usize, text: &str) -> Edited {
-    let name: String = text.trim().chars().take(MOST_CHARACTERS).collect();
+    let name: String = text.trim().chars().take(MAX_NAME).collect();
     let draft = |error: &str| {
         Edited::Draft(Field::KeptName(index), Draft { text: text.to_owned(), error: error.to_owned() })
     };
     if index >= document.kept.len() {
         return Edited::Done;
     }
-    if name.is_empty() {
-        return draft("a name is needed");
-    }
-    if name == CHOSEN {
-        return draft("this is the name of the chosen design: take another");
+    if let Some(why) = KeptDesign::refused_name(&name) {
+        return draft(&why);
     }
     if document.kept.iter().enumerate().any(|(k, kept)| k != index && kept.name == name) {
         return draft("another kept design has this name: take another");
@@ -99,9 +104,13 @@ fn rename(document: &mut Document, index: usize, text: &str) -> Edited {
     Edited::Done
 }
 
-/// A short name of the chosen design: method, order, and how many poles it takes or what is demanded.
-fn name_of(document: &Document) -> String {
+/// A name of the chosen design: the one that it was kept under before, or method, order, and how many poles it takes or
+/// what is demanded.
+fn name_of(document: &Document, history: &History) -> String {
     let design = &document.design;
+    if let Some(before) = history.kept_name(&document.plant, design) {
+        return before.to_owned();
+    }
     let mut parts = vec![method_name(design.method).to_owned()];
     if design.method.orders().len() > 1 {
         parts.push(design.order.key().to_owned());
@@ -138,9 +147,11 @@ fn particulars(document: &Document, design: &DesignChoice) -> Vec<String> {
 fn unique(document: &Document, name: &str, except: Option<usize>) -> String {
     let others = document.kept.iter().enumerate().filter(|(k, _)| Some(*k) != except);
     let taken: Vec<&str> = others.map(|(_, kept)| kept.name.as_str()).chain([CHOSEN]).collect();
-    let numbered = (2..).map(|k| format!("{name} ({k})"));
-    std::iter::once(name.to_owned())
+    // a number finds room at the end
+    let clipped = |room: usize| name.chars().take(MAX_NAME - room).collect::<String>();
+    let numbered = (2..).map(|k| format!("{} ({k})", clipped(5)));
+    std::iter::once(clipped(0))
         .chain(numbered)
         .find(|candidate| !taken.contains(&candidate.as_str()))
-        .unwrap_or_else(|| name.to_owned())
+        .unwrap_or_else(|| clipped(0))
 }

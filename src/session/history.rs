@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use crate::document::Document;
+use crate::document::{Document, PlantData};
+use crate::observer::DesignChoice;
 
 /// Past and future documents.
 #[derive(Clone, Debug, Default)]
@@ -51,6 +52,13 @@ impl History {
         self.past.push(now);
         self.dragging = None;
         Some(after)
+    }
+
+    /// The name that a design of this plant was kept under before, the newest one.
+    pub fn kept_name(&self, plant: &PlantData, design: &DesignChoice) -> Option<&str> {
+        let documents = self.past.iter().rev().filter(|document| document.plant == *plant);
+        let mut kept = documents.flat_map(|document| &document.kept);
+        kept.find(|kept| kept.design == *design).map(|kept| kept.name.as_str())
     }
 
     /// Whether there is something to undo.

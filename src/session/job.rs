@@ -2,12 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::analysis::{Analysis, analyse};
+use super::analysis::{Analysis, analyse_with};
 use super::comparison::{ComparisonView, compared};
 use super::free_report::FreeReport;
 use crate::document::{Document, Subject, read_document};
 use crate::numerics::Watch;
 use crate::paper::FigureSpec;
+use crate::simulation::Memo;
 
 /// A computation that is asked for.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -74,14 +75,19 @@ pub enum Outcome {
 
 /// Performs a request to its end; `None` when `watch` said stop.
 pub fn perform(request: &JobRequest, watch: &Watch) -> Option<JobReply> {
+    perform_with(&mut Memo::new(), request, watch)
+}
+
+/// The same with a memory of the designs of earlier requests.
+pub fn perform_with(memo: &mut Memo, request: &JobRequest, watch: &Watch) -> Option<JobReply> {
     let reply = |outcome| JobReply { id: request.id, revision: request.revision, outcome };
     let document = match read_document(&request.document) {
         Ok(document) => document,
         Err(error) => return Some(reply(Outcome::Failed(error.to_string()))),
     };
     let outcome = match &request.task {
-        Task::Analyse => Outcome::Analysis(Box::new(analyse(&document, watch)?)),
-        Task::Compare => Outcome::Comparison(compared(&document, watch)?),
+        Task::Analyse => Outcome::Analysis(Box::new(analyse_with(memo, &document, watch)?)),
+        Task::Compare => Outcome::Comparison(compared(&document, memo, watch)?),
         Task::Figure { id } => {
             if !watch.go_on(0.0, "designing and simulating the figure") {
                 return None;

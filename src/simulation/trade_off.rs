@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::comparison::{ComparedDesign, judged};
 use crate::numerics::{Complex64, Tolerance, Watch, complex_svd};
-use crate::observer::{DesignChoice, DesignError, ErrorStateSpace, LmiChoice, assess};
+use crate::observer::{DesignChoice, DesignError, ErrorStateSpace, LmiChoice, assess_knowing, conditions};
 use crate::system::{Model, TimeDomain};
 
 /// Designs along a sweep of the bandwidth factor.
@@ -67,15 +67,25 @@ pub fn trade_off(
     let (sweep, chosen, values) = sweep(model, choice);
     let mut found = TradeOff { sweep, chosen, points: Vec::new(), notes: Vec::new() };
     let mut last = None;
+    // a factor moves poles, on which no condition depends; a decay may decide a condition
+    let asked = match sweep {
+        Sweep::Scale => conditions(model, choice, tolerance).ok(),
+        Sweep::Decay => None,
+    };
     for (k, &at) in values.iter().enumerate() {
         let part = |k: usize| k as f32 / values.len() as f32;
         if !watch.go_on(part(k), "designs along the sweep") {
             return None;
         }
         let choice = swept(choice, sweep, at);
-        let outcome = assess(model, &choice, tolerance, &watch.part(part(k), part(k + 1)))
+        let conditions = match &asked {
+            Some(asked) => Ok(asked.clone()),
+            None => conditions(model, &choice, tolerance),
+        };
+        let watch = watch.part(part(k), part(k + 1));
+        let outcome = conditions
             .map_err(|error| DesignError::Numerics(error.to_string()))
-            .and_then(|assessment| assessment.outcome);
+            .and_then(|found| assess_knowing(model, &choice, found, tolerance, &watch).outcome);
         let judged = outcome.and_then(|design| Ok(judged(&model.system, &design, tolerance)?));
         match judged {
             Ok((design, errors)) => {

@@ -1,17 +1,10 @@
 //! The lines of a comparison's table.
 
-use super::{ComparisonTable, Group, TableCell, TableLine};
+use super::best::{Better, mark};
+use super::{ComparisonTable, Group, LineKind, TableCell, TableLine};
 use crate::numerics::Complex64;
 use crate::observer::{DesignError, ErrorGain, ErrorGains, show};
 use crate::simulation::comparison::{ComparedDesign, Comparison, ComparisonRow, ErrorSize, ScenarioErrors};
-
-/// Which of two values is the better one.
-#[derive(Clone, Copy, PartialEq)]
-enum Better {
-    Smaller,
-    Larger,
-    Neither,
-}
 
 /// States and unknown inputs that have a line of their own at most.
 const MOST_EACH: usize = 40;
@@ -21,15 +14,17 @@ pub fn comparison_table(comparison: &Comparison) -> ComparisonTable {
     let rows = &comparison.rows;
     let mut lines = vec![status(rows)];
     lines.extend(design_lines(rows));
+    lines.extend(estimates(rows));
     lines.extend(gain_lines(rows));
     lines.extend(norm_lines(rows));
     lines.extend(scenario_lines(rows));
     lines.extend(each_lines(rows));
-    ComparisonTable { designs: rows.iter().map(|row| row.name.clone()).collect(), lines }
+    let designs = rows.iter().map(|row| row.name.clone()).collect();
+    ComparisonTable { designs, lines, linear_part: comparison.linear_part }
 }
 
 /// A number with three significant digits.
-fn digits(value: f64) -> String {
+pub(super) fn digits(value: f64) -> String {
     let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
     if value != 0.0 && !(1e-3..1e5).contains(&value.abs()) {
         format!("{value:.2e}")
@@ -56,28 +51,7 @@ fn line(
     let cells = rows.iter().map(|row| row.outcome.as_ref().map_or_else(|_| words("-"), &cell));
     let mut cells: Vec<TableCell> = cells.collect();
     mark(&mut cells, rows, better);
-    TableLine { label: label.to_owned(), meaning: meaning.to_owned(), group, cells }
-}
-
-/// Marks the best values of verified designs, unless all are equal as far as they are shown.
-fn mark(cells: &mut [TableCell], rows: &[ComparisonRow], better: Better) {
-    let verified = |row: &ComparisonRow| row.outcome.as_ref().is_ok_and(|design| design.verified);
-    let rank = |value: f64| if better == Better::Larger { -value } else { value };
-    let judged: Vec<(usize, f64)> = cells
-        .iter()
-        .zip(rows)
-        .enumerate()
-        .filter_map(|(k, (cell, row))| Some((k, rank(cell.value.filter(|_| verified(row))?))))
-        .collect();
-    let Some(best) = judged.iter().map(|(_, value)| *value).reduce(f64::min) else { return };
-    let shown = digits(best.abs());
-    let is_best = |value: f64| value == best || digits(value.abs()) == shown;
-    if better == Better::Neither || judged.len() < 2 || judged.iter().all(|(_, value)| is_best(*value)) {
-        return;
-    }
-    for (k, value) in judged {
-        cells[k].best = is_best(value);
-    }
+    TableLine { label: label.to_owned(), meaning: meaning.to_owned(), group, kind: LineKind::Value, cells }
 }
 
 /// Whether each design exists and is verified; the reason in the hint.
@@ -102,6 +76,7 @@ fn status(rows: &[ComparisonRow]) -> TableLine {
         label: "Status".to_owned(),
         meaning: "Whether the design exists and every check of it was passed".to_owned(),
         group: Group::Design,
+        kind: LineKind::Status,
         cells: rows.iter().map(cell).collect(),
     }
 }
@@ -114,8 +89,11 @@ fn design_lines(rows: &[ComparisonRow]) -> Vec<TableLine> {
         let shown: Vec<String> = modes.iter().map(|mode| show(*mode)).collect();
         words(if shown.is_empty() { "none".to_owned() } else { shown.join(", ") })
     };
+    let method = of("Method", "Method and order in words", Better::Neither, &|d| words(&d.title));
+    let spectrum =
+        of("Spectrum", "Eigenvalues of the error dynamics", Better::Neither, &|d| modes(&d.spectrum));
     let rows = [
-        of("Method", "Method and order in words", Better::Neither, &|d| words(&d.title)),
+        TableLine { kind: LineKind::Method, ..method },
         of("Order", "Number of the observer's own states", Better::Smaller, &|d| number(d.order as f64)),
         of(
             "Slowest mode",
@@ -129,44 +107,81 @@ fn design_lines(rows: &[ComparisonRow]) -> Vec<TableLine> {
             Better::Larger,
             &|d| d.margin.map_or_else(|| words("at once"), number),
         ),
-        of("Spectrum", "Eigenvalues of the error dynamics", Better::Neither, &|d| modes(&d.spectrum)),
+        TableLine { kind: LineKind::Spectrum, ..spectrum },
         of("Fixed modes", "Modes that no gain can move", Better::Neither, &|d| modes(&d.fixed_modes)),
     ];
     rows.into()
 }
 
+/// How many states each design estimates, when not every design estimates all.
+fn estimates(rows: &[ComparisonRow]) -> Option<TableLine> {
+    let designs = || rows.iter().filter_map(|row| row.outcome.as_ref().ok());
+    let partial = designs().any(|design| design.estimated.len() < design.states);
+    let meaning = "The plant's states whose estimate tends to the truth; errors are those of these states, and \
+                   designs that estimate different ones are not ranked by them";
+    partial.then(|| {
+        line(("Estimates", meaning, Group::Design), rows, Better::Neither, |design| {
+            let (found, of) = (design.estimated.len(), design.states);
+            words(match found {
+                0 => format!("none of {of} states"),
+                _ if found == of => "all states".to_owned(),
+                _ => format!("{found} of {of} states"),
+            })
+        })
+    })
+}
+
+/// Norms of gains. Of these only `|V|` is the same in any coordinates of the observer's states, and the same thing for
+/// every method: the others are not ranked.
 fn gain_lines(rows: &[ComparisonRow]) -> [TableLine; 3] {
-    let of = |label, meaning, cell: &dyn Fn(&ComparedDesign) -> TableCell| {
-        line((label, meaning, Group::Gains), rows, Better::Smaller, cell)
+    let of = |label, meaning, better, cell: &dyn Fn(&ComparedDesign) -> TableCell| {
+        line((label, meaning, Group::Gains), rows, better, cell)
     };
     [
-        of("|L|", "Largest gain from the outputs into the observer's states", &|d| number(d.output_gain)),
-        of("|V|", "Largest gain from the outputs to the estimate at once", &|d| number(d.direct_gain)),
-        of("Chosen gain", "Norm of what the placement or the matrix inequalities chose", &|d| {
-            number(d.chosen_gain)
+        of(
+            "|L|",
+            "Largest gain from the outputs into the observer's states, in the coordinates that the design has",
+            Better::Neither,
+            &|d| number(d.output_gain),
+        ),
+        of("|V|", "Largest gain from the outputs to the estimate at once", Better::Smaller, &|d| {
+            number(d.direct_gain)
         }),
+        of(
+            "Chosen gain",
+            "Norm of what the placement or the matrix inequalities chose, which is another matrix for each method",
+            Better::Neither,
+            &|d| number(d.chosen_gain),
+        ),
     ]
 }
 
 fn norm_lines(rows: &[ComparisonRow]) -> Vec<TableLine> {
-    let of = |label, meaning, gain: fn(&ErrorGains) -> &ErrorGain| {
-        line((label, meaning, Group::Norms), rows, Better::Smaller, |d| gain_cell(gain(&d.gains)))
+    let of = |label, meaning, better, gain: fn(&ErrorGains) -> &ErrorGain| {
+        line((label, meaning, Group::Norms), rows, better, |d| gain_cell(gain(&d.gains)))
     };
+    let (states, input) = (Better::SmallerOfSameStates, Better::Smaller);
     let mut lines = vec![
-        of("d to e", "Largest gain from the unknown input to the error of the states", |g| &g.d_to_e),
-        of("d to e_d", "Largest gain from the unknown input to the error of its own estimate", |g| {
+        of("d to e", "Largest gain from the unknown input to the error of the states", states, |g| &g.d_to_e),
+        of("d to e_d", "Largest gain from the unknown input to the error of its own estimate", input, |g| {
             &g.d_to_e_d
         }),
-        of("noise to e", "Largest gain from measurement noise to the error of the states", |g| &g.w_to_e),
-        of("noise to e_d", "Largest gain from measurement noise to the error of the unknown input", |g| {
-            &g.w_to_e_d
+        of("noise to e", "Largest gain from measurement noise to the error of the states", states, |g| {
+            &g.w_to_e
         }),
+        of(
+            "noise to e_d",
+            "Largest gain from measurement noise to the error of the unknown input",
+            input,
+            |g| &g.w_to_e_d,
+        ),
     ];
     let any = rows.iter().any(|row| row.outcome.as_ref().is_ok_and(|design| design.guaranteed.is_some()));
     if any {
         let meaning =
             "Proved bound of the gain from d (or from what is attenuated) to e, nonlinearity included";
-        lines.push(line(("Guaranteed gamma", meaning, Group::Norms), rows, Better::Smaller, |d| {
+        let better = Better::SmallerOfSameMethod;
+        lines.push(line(("Guaranteed gamma", meaning, Group::Norms), rows, better, |d| {
             d.guaranteed.map_or_else(|| words("no guarantee"), number)
         }));
     }
@@ -190,7 +205,8 @@ fn gain_cell(gain: &ErrorGain) -> TableCell {
         },
         ErrorGain::NotEstimated => words("not estimated"),
         ErrorGain::NoInput => words("no input"),
-        ErrorGain::NotFinite(why) => TableCell { hint: why.clone(), ..words("none") },
+        ErrorGain::NotFinite(why) => TableCell { hint: why.clone(), ..words("not finite") },
+        ErrorGain::NotComputed(why) => TableCell { hint: why.clone(), ..words("not known") },
     }
 }
 
@@ -205,16 +221,16 @@ fn scenario_lines(rows: &[ComparisonRow]) -> Vec<TableLine> {
         ("largest of, whole", "Largest absolute value over the whole horizon", |size| size.largest),
     ];
     let mut lines = Vec::new();
-    for (letter, unknown) in [("e", false), ("e_d", true)] {
+    for (letter, unknown, better) in
+        [("e", false, Better::SmallerOfSameStates), ("e_d", true, Better::Smaller)]
+    {
         for (label, meaning, of) in sizes {
             let label = label.replacen("of", letter, 1);
             let cell = |errors: &ScenarioErrors| {
-                let size = if unknown { errors.all_unknown } else { Some(errors.all_states) };
+                let size = if unknown { errors.all_unknown } else { errors.all_states };
                 size.map_or_else(|| words("not estimated"), |size| number(of(&size)))
             };
-            lines.push(line((&label, meaning, Group::Scenario), rows, Better::Smaller, |d| {
-                simulated(d, cell)
-            }));
+            lines.push(line((&label, meaning, Group::Scenario), rows, better, |d| simulated(d, cell)));
         }
     }
     lines

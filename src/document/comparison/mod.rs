@@ -1,5 +1,6 @@
 //! The table of a comparison as cells of text, and as Markdown and CSV.
 
+mod best;
 mod lines;
 mod text;
 
@@ -13,6 +14,19 @@ pub struct ComparisonTable {
     pub designs: Vec<String>,
     /// The quantities.
     pub lines: Vec<TableLine>,
+    /// Whether the plant has a nonlinearity that the norms of the error leave out.
+    pub linear_part: bool,
+}
+
+impl ComparisonTable {
+    /// The heading of a part.
+    pub fn heading(&self, group: Group) -> String {
+        if self.linear_part && group == Group::Norms {
+            format!("{}, linear part alone", group.title())
+        } else {
+            group.title().to_owned()
+        }
+    }
 }
 
 /// One quantity of all designs.
@@ -24,8 +38,24 @@ pub struct TableLine {
     pub meaning: String,
     /// To which part of the table it belongs.
     pub group: Group,
+    /// How its cells are to be read.
+    pub kind: LineKind,
     /// A cell for each design.
     pub cells: Vec<TableCell>,
+}
+
+/// How the cells of a line are to be read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LineKind {
+    /// A number or a few words.
+    #[default]
+    Value,
+    /// Whether the design exists and is verified.
+    Status,
+    /// A sentence.
+    Method,
+    /// Eigenvalues, which a picture says better.
+    Spectrum,
 }
 
 /// Parts of the table.

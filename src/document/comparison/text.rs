@@ -14,7 +14,7 @@ pub fn comparison_to_markdown(comparison: &Comparison) -> String {
         if lines.is_empty() {
             continue;
         }
-        let heading = format!("**{}**", group.title());
+        let heading = format!("**{}**", table.heading(group));
         text.push_str(&markdown_row(
             std::iter::once(heading.as_str()).chain(table.designs.iter().map(|_| "")),
         ));

@@ -9,6 +9,7 @@ use crate::simulation::comparison::{ComparedDesign, Comparison, ComparisonRow, E
 /// Adds the designs and the remarks.
 pub(super) fn put(map: &mut Map<String, Value>, comparison: &Comparison) {
     map.insert("designs".to_owned(), comparison.rows.iter().map(row).collect());
+    map.insert("norms_of_linear_part".to_owned(), json!(comparison.linear_part));
     map.insert("notes".to_owned(), json!(comparison.notes));
 }
 
@@ -35,6 +36,8 @@ fn found(design: &ComparedDesign) -> Map<String, Value> {
     let ComparedDesign {
         title,
         order,
+        states: _,
+        estimated,
         verified: _,
         spectrum,
         slowest,
@@ -50,6 +53,7 @@ fn found(design: &ComparedDesign) -> Map<String, Value> {
     let all = [
         ("title", json!(title)),
         ("order_number", json!(order)),
+        ("estimated_states", estimated.iter().map(|state| state + 1).collect()),
         ("spectrum", complexes(spectrum)),
         ("slowest_mode", slowest.map_or(Value::Null, complex)),
         ("decay", margin.map_or(Value::Null, number)),
@@ -68,20 +72,21 @@ fn found(design: &ComparedDesign) -> Map<String, Value> {
 fn norms(gains: &ErrorGains) -> Value {
     let ErrorGains { d_to_e, d_to_e_d, w_to_e, w_to_e_d } = gains;
     json!({
-        "d to e": norm(d_to_e),
-        "d to e_d": norm(d_to_e_d),
-        "noise to e": norm(w_to_e),
-        "noise to e_d": norm(w_to_e_d),
+        "d to e": norm(d_to_e, "no unknown input"),
+        "d to e_d": norm(d_to_e_d, "no unknown input"),
+        "noise to e": norm(w_to_e, "no output, hence no noise"),
+        "noise to e_d": norm(w_to_e_d, "no output, hence no noise"),
     })
 }
 
-fn norm(gain: &ErrorGain) -> Value {
+/// A norm, or why there is none; `lacking` is what the plant has not when there is no such input.
+fn norm(gain: &ErrorGain, lacking: &str) -> Value {
     match gain {
         ErrorGain::Norm(found) => json!({ "norm": number(found.norm), "frequency": number(found.frequency) }),
         ErrorGain::Decoupled => json!({ "norm": 0, "decoupled": true }),
         ErrorGain::NotEstimated => json!({ "norm": null, "why": "not estimated" }),
-        ErrorGain::NoInput => json!({ "norm": null, "why": "the plant has no unknown input" }),
-        ErrorGain::NotFinite(why) => json!({ "norm": null, "why": why }),
+        ErrorGain::NoInput => json!({ "norm": null, "why": format!("the plant has {lacking}") }),
+        ErrorGain::NotFinite(why) | ErrorGain::NotComputed(why) => json!({ "norm": null, "why": why }),
     }
 }
 
@@ -95,11 +100,12 @@ fn errors(errors: &ScenarioErrors) -> Value {
             .map(|size| size.as_ref().map_or(Value::Null, |size| number(of(size))))
             .collect();
         let unknown: Vec<f64> = errors.unknown.iter().map(of).collect();
+        let together = |size: &Option<ErrorSize>| size.as_ref().map_or(Value::Null, |size| number(of(size)));
         json!({
             "states": states,
             "unknown_inputs": numbers(&unknown),
-            "all_states": number(of(&errors.all_states)),
-            "all_unknown_inputs": errors.all_unknown.as_ref().map_or(Value::Null, |size| number(of(size))),
+            "all_states": together(&errors.all_states),
+            "all_unknown_inputs": together(&errors.all_unknown),
         })
     };
     json!({

@@ -22,7 +22,7 @@ use super::pretty::pretty;
 use super::read::Sizes;
 use crate::numerics::Complex64;
 use crate::observer::hierarchical::HierarchicalObserver;
-use crate::observer::{Assessment, Condition};
+use crate::observer::{Assessment, Condition, MethodLight};
 use crate::paper::{Erratum, Motion};
 use crate::simulation::Trajectory;
 use crate::simulation::comparison::Comparison;
@@ -33,29 +33,41 @@ pub use figures::{FigureFiles, WrittenFigure};
 /// Version of the reports.
 pub const REPORT_VERSION: u64 = 1;
 
-/// Report of `descry check`: properties of the system and conditions of the chosen method.
-pub fn check_report(document: &Document, model: &Model, conditions: &[Condition]) -> String {
+/// Report of `descry check`: properties of the system, lights of all methods and conditions of the chosen one.
+pub fn check_report(
+    document: &Document,
+    model: &Model,
+    lights: &[MethodLight],
+    conditions: &[Condition],
+) -> String {
     let mut properties = properties::properties(&model.system, &document.tolerance);
     if let Some(network) = &model.network {
         properties.extend(network::properties(network, &document.tolerance));
     }
-    checked(document, properties, conditions, document.design.method.missing(model))
+    checked(document, (properties, lights), conditions, document.design.method.missing(model))
 }
 
 /// Report of `descry check` for a network that is too large to be written as one system.
-pub fn network_check_report(document: &Document, network: &Network, conditions: &[Condition]) -> String {
+pub fn network_check_report(
+    document: &Document,
+    network: &Network,
+    lights: &[MethodLight],
+    conditions: &[Condition],
+) -> String {
     let properties = network::properties(network, &document.tolerance);
-    checked(document, properties, conditions, document.design.method.missing_for(network))
+    checked(document, (properties, lights), conditions, document.design.method.missing_for(network))
 }
 
 fn checked(
     document: &Document,
-    properties: Vec<Value>,
+    (properties, lights): (Vec<Value>, &[MethodLight]),
     conditions: &[Condition],
     unsuitable: Option<String>,
 ) -> String {
     let mut map = head("check", document);
     map.insert("properties".to_owned(), Value::Array(properties));
+    let light = |found: &MethodLight| json!({ "method": found.method.key(), "light": found.light.key(), "why": found.why });
+    map.insert("methods".to_owned(), lights.iter().map(light).collect());
     put_conditions(&mut map, conditions);
     let holds = conditions.iter().all(|condition| !condition.needed || condition.verdict.holds());
     let verdict = match (&unsuitable, holds) {

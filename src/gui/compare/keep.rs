@@ -2,23 +2,16 @@
 
 use egui::Ui;
 
+use super::super::observer::sentence;
 use super::super::{Output, theme};
-use crate::document::limits::MAX_KEPT;
-use crate::session::{CompareEdit, Edit, Place, Session, Show, Tab};
+use crate::session::{CompareEdit, Edit, Place, Session, Show, Tab, why_not_kept};
 
 /// Whether the chosen design can be kept, and what that does or why not.
 pub(super) fn possible(session: &Session) -> (bool, String) {
-    let document = session.document();
-    if let Some(same) = document.kept.iter().find(|kept| kept.design == document.design) {
-        return (false, format!("Kept already, as \"{}\": change the design first.", same.name));
+    match why_not_kept(session.document()) {
+        Some(why) => (false, sentence(&why)),
+        None => (true, "Keeps the chosen design beside those that you try next.".to_owned()),
     }
-    if document.kept.len() >= MAX_KEPT {
-        return (
-            false,
-            format!("{MAX_KEPT} designs are kept, and no more can be: discard one of them first."),
-        );
-    }
-    (true, "Keeps the chosen design beside those that you try next.".to_owned())
 }
 
 /// Draws a button that keeps the chosen design, and the way to the comparison.

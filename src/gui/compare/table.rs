@@ -7,7 +7,7 @@ use egui::{
 use super::super::{Output, Widgets, theme};
 use super::head;
 use super::spectrum::{Window, picture};
-use crate::document::comparison::{ComparisonTable, Group, TableCell, TableLine};
+use crate::document::comparison::{ComparisonTable, Group, LineKind, TableCell, TableLine};
 use crate::document::{CHOSEN, PlantData};
 use crate::paper::design_colour;
 use crate::session::Session;
@@ -23,18 +23,18 @@ const PICTURE: f32 = 70.0;
 
 /// A row of the table.
 enum Row<'a> {
-    Heading(Group),
+    Heading(Group, String),
     Line(&'a TableLine),
 }
 
 impl Row<'_> {
     fn height(&self) -> f32 {
         match self {
-            Self::Heading(_) => LINE + 4.0,
-            Self::Line(line) => match line.label.as_str() {
-                "Method" => TALL,
-                "Spectrum" => PICTURE,
-                _ => LINE,
+            Self::Heading(..) => LINE + 4.0,
+            Self::Line(line) => match line.kind {
+                LineKind::Method => TALL,
+                LineKind::Spectrum => PICTURE,
+                LineKind::Value | LineKind::Status => LINE,
             },
         }
     }
@@ -70,7 +70,7 @@ pub(super) fn show(
             continue;
         }
         if group != Group::Design {
-            rows.push(Row::Heading(group));
+            rows.push(Row::Heading(group, table.heading(group)));
         }
         if is_open(ui, group) {
             rows.extend(lines().map(Row::Line));
@@ -141,15 +141,15 @@ fn name(ui: &mut Ui, row: &Row<'_>, size: egui::Vec2, k: usize) {
             let mut ui = child(ui, rect.shrink2(vec2(4.0, 3.0)));
             ui.add(Label::new(&line.label).truncate()).on_hover_text(&line.meaning);
         }
-        Row::Heading(group) => heading(ui, *group, rect),
+        Row::Heading(group, title) => heading(ui, *group, title, rect),
     }
 }
 
 /// A heading, which folds its part; its text may reach under the designs.
-fn heading(ui: &mut Ui, group: Group, rect: Rect) {
+fn heading(ui: &mut Ui, group: Group, title: &str, rect: Rect) {
     let open = is_open(ui, group);
     let response = ui.interact(rect, open_id(group).with("heading"), Sense::click());
-    response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, open, group.title()));
+    response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, open, title));
     if response.clicked() {
         ui.data_mut(|data| data.insert_temp(open_id(group), !open));
     }
@@ -163,7 +163,7 @@ fn heading(ui: &mut Ui, group: Group, rect: Rect) {
     let at = pos2(rect.left() + 4.0, rect.bottom() - 3.0);
     let clip = Rect::from_min_max(rect.min, pos2(ui.ctx().content_rect().right(), rect.max.y));
     let painter = ui.painter().with_clip_rect(clip);
-    painter.text(at, egui::Align2::LEFT_BOTTOM, format!("{mark} {}", group.title()), font, colour);
+    painter.text(at, egui::Align2::LEFT_BOTTOM, format!("{mark} {title}"), font, colour);
     response.on_hover_cursor(CursorIcon::PointingHand);
 }
 
@@ -192,9 +192,9 @@ impl Table<'_> {
             let found = self.columns[column];
             let Some((row, cell)) = found.and_then(|row| Some((row, line.cells.get(row)?))) else { continue };
             let design = self.comparison.rows.get(row).and_then(|row| row.outcome.as_ref().ok());
-            match design.filter(|_| line.label == "Spectrum") {
+            match design.filter(|_| line.kind == LineKind::Spectrum) {
                 Some(design) => self.spectrum(ui, rect, column, design, cell),
-                None => value(ui, rect, line, cell),
+                None => value(ui, rect, line, cell, design.is_some_and(|design| design.verified)),
             }
         }
     }
@@ -211,24 +211,24 @@ impl Table<'_> {
 }
 
 /// A value or words; the best value of a line stands out by weight and ground.
-fn value(ui: &mut Ui, rect: Rect, line: &TableLine, cell: &TableCell) {
+fn value(ui: &mut Ui, rect: Rect, line: &TableLine, cell: &TableCell, verified: bool) {
     let inner = rect.shrink2(vec2(6.0, 2.0));
     if cell.best {
         let ground = theme::good(ui).gamma_multiply(0.16);
         ui.painter().rect_filled(rect.shrink2(vec2(2.0, 1.0)), 4.0, ground);
     }
-    let text = match (line.label.as_str(), cell.text.as_str()) {
-        (_, "verified") => RichText::new(&cell.text).color(theme::good(ui)),
-        ("Status", _) => RichText::new(&cell.text).color(theme::near(ui)),
-        ("Method", _) => RichText::new(&cell.text).small(),
-        _ if cell.value.is_none() && line.group != Group::Design => {
+    let text = match line.kind {
+        LineKind::Status if verified => RichText::new(&cell.text).color(theme::good(ui)),
+        LineKind::Status => RichText::new(&cell.text).color(theme::near(ui)),
+        LineKind::Method => RichText::new(&cell.text).small(),
+        LineKind::Value | LineKind::Spectrum if cell.value.is_none() && line.group != Group::Design => {
             RichText::new(&cell.text).color(theme::faint(ui))
         }
-        _ => RichText::new(&cell.text),
+        LineKind::Value | LineKind::Spectrum => RichText::new(&cell.text),
     };
     let text = if cell.best { text.strong() } else { text };
     let label = Label::new(text);
-    let label = if line.label == "Method" { label.wrap() } else { label.truncate() };
+    let label = if line.kind == LineKind::Method { label.wrap() } else { label.truncate() };
     let mut ui = child(ui, inner);
     let response = ui.add(label);
     let best = if cell.best { ", the best" } else { "" };

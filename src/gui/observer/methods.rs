@@ -72,7 +72,7 @@ pub(super) fn reasons(ui: &mut Ui, derived: &Derived) {
 }
 
 /// A reason as a sentence of its own.
-fn sentence(why: &str) -> String {
+pub(in crate::gui) fn sentence(why: &str) -> String {
     let mut letters = why.chars();
     let first = letters.next().map(char::to_uppercase).into_iter().flatten();
     first.chain(letters).chain(['.']).collect()
@@ -81,7 +81,7 @@ fn sentence(why: &str) -> String {
 fn word(light: Light) -> &'static str {
     match light {
         Light::Exists => "exists",
-        Light::Near => "exists narrowly",
+        Light::Near => "exists narrowly or not as asked",
         Light::Fails => "does not exist",
         Light::Missing => "data missing",
     }

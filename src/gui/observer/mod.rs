@@ -11,6 +11,8 @@ mod poles;
 mod result;
 mod rows;
 
+pub(super) use methods::sentence;
+
 use egui::{RichText, Ui};
 
 use super::{Output, Widgets, compare, network, theme};

@@ -15,10 +15,12 @@ pub enum ErrorGain {
     Decoupled,
     /// The observer does not estimate it.
     NotEstimated,
-    /// The plant has no unknown input.
+    /// The plant has no such input: no unknown input, or no output and hence no noise.
     NoInput,
-    /// There is no finite gain, or it was not computed: why.
+    /// There is no finite gain: why.
     NotFinite(String),
+    /// The gain is not known: why.
+    NotComputed(String),
 }
 
 impl ErrorGain {
@@ -27,7 +29,7 @@ impl ErrorGain {
         match self {
             Self::Norm(found) => Some(found.norm),
             Self::Decoupled => Some(0.0),
-            Self::NotEstimated | Self::NoInput | Self::NotFinite(_) => None,
+            Self::NotEstimated | Self::NoInput | Self::NotFinite(_) | Self::NotComputed(_) => None,
         }
     }
 }
@@ -48,7 +50,7 @@ pub struct ErrorGains {
 impl ErrorGains {
     /// The same words for all four, when there is no error system.
     pub fn none(why: &str) -> Self {
-        let gain = || ErrorGain::NotFinite(why.to_owned());
+        let gain = || ErrorGain::NotComputed(why.to_owned());
         Self { d_to_e: gain(), d_to_e_d: gain(), w_to_e: gain(), w_to_e_d: gain() }
     }
 }

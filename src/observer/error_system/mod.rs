@@ -14,12 +14,14 @@
 mod claimed;
 mod gains;
 mod joint;
+mod network;
 #[cfg(test)]
 mod tests;
 
 use nalgebra::DMatrix;
 
 pub use gains::{ErrorGain, ErrorGains};
+pub use network::network_error_system;
 
 use super::Design;
 use crate::numerics::{Complex64, NumericsError, StabilityRegion, Tolerance};
@@ -85,12 +87,12 @@ pub enum ErrorSystemError {
         /// Smallest singular value.
         smallest: f64,
     },
-    /// The plant takes part and is too large.
+    /// The plant, or a whole that local observers listen to, takes part and is too large.
     #[error(
-        "plant and observer have {found} states together; the error of at most {most} is separated from the plant"
+        "the error has {found} states together with what drives it; gains of at most {most} are computed"
     )]
     TooLarge {
-        /// States of both.
+        /// States of all together.
         found: usize,
         /// The limit.
         most: usize,

@@ -27,8 +27,9 @@ pub struct ScenarioErrors {
     pub states: Vec<Option<ErrorSize>>,
     /// One for each unknown input that the observer estimates.
     pub unknown: Vec<ErrorSize>,
-    /// All estimated states together: the root of the sum of mean squares, and the largest of the largest.
-    pub all_states: ErrorSize,
+    /// All estimated states together: the root of the sum of mean squares, and the largest of the largest; none when the
+    /// observer estimates none.
+    pub all_states: Option<ErrorSize>,
     /// All estimated unknown inputs together; none when the observer estimates none.
     pub all_unknown: Option<ErrorSize>,
 }
@@ -40,7 +41,7 @@ pub(super) fn of(motion: &Motion, design: &Design) -> ScenarioErrors {
     let estimated = design.estimated_states(states.len());
     ScenarioErrors {
         all_states: together(estimated.iter().filter_map(|k| states.get(*k))),
-        all_unknown: (!unknown.is_empty()).then(|| together(unknown.iter())),
+        all_unknown: together(unknown.iter()),
         states: states
             .into_iter()
             .enumerate()
@@ -51,7 +52,7 @@ pub(super) fn of(motion: &Motion, design: &Design) -> ScenarioErrors {
 }
 
 /// The sizes of each row of an error.
-fn sizes(t: &[f64], e: &DMatrix<f64>) -> Vec<ErrorSize> {
+pub(super) fn sizes(t: &[f64], e: &DMatrix<f64>) -> Vec<ErrorSize> {
     let half = t.last().copied().unwrap_or(0.0) / 2.0;
     let from = t.partition_point(|t| *t < half).min(e.ncols());
     let late = e.columns(from, e.ncols() - from);
@@ -67,8 +68,9 @@ fn sizes(t: &[f64], e: &DMatrix<f64>) -> Vec<ErrorSize> {
     (0..e.nrows()).map(row).collect()
 }
 
-fn together<'a>(sizes: impl Iterator<Item = &'a ErrorSize>) -> ErrorSize {
-    sizes.fold(ErrorSize::default(), |sum, size| ErrorSize {
+/// All of them as one; `None` of none, since nothing estimated is not the same as no error.
+pub(super) fn together<'a>(sizes: impl Iterator<Item = &'a ErrorSize>) -> Option<ErrorSize> {
+    sizes.copied().reduce(|sum, size| ErrorSize {
         rms: sum.rms.hypot(size.rms),
         largest: sum.largest.max(size.largest),
         late_rms: sum.late_rms.hypot(size.late_rms),

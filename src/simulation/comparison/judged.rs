@@ -22,41 +22,75 @@ pub(in crate::simulation) fn judged(
         Err(error) => ErrorGains::none(&error.to_string()),
     };
     let region = StabilityRegion::of(system.time == TimeDomain::Discrete);
-    Ok((ComparedDesign { gains, ..judged_by_itself(design, region)? }, errors.ok()))
+    Ok((judged_by_itself(design, region, gains)?, errors.ok()))
 }
 
-/// What a design tells of itself; nothing of its error in a plant.
+/// What a design tells of itself, beside the gains of its error; nothing of a scenario yet.
 ///
 /// # Errors
 /// When a decomposition fails its check.
 pub(super) fn judged_by_itself(
     design: &Design,
     region: StabilityRegion,
+    gains: ErrorGains,
 ) -> Result<ComparedDesign, NumericsError> {
     let spectrum = design.verification.spectrum.clone();
     let slowest = slowest(&spectrum, region);
+    let Parts { order, states, local_gain, local_modes } = Parts::of(design)?;
+    let chosen_gain = match &design.synthesis {
+        Synthesis::Poles(placement) => largest_gain(&placement.gain)?,
+        Synthesis::Lmi(results) => results.iter().map(|result| result.gain).fold(0.0, f64::max),
+    };
     Ok(ComparedDesign {
         title: design.title.clone(),
-        order: design.observer.order(),
+        order,
+        states,
+        estimated: design.estimated_states(states),
         verified: design.verification.verified(),
         slowest,
         margin: slowest.map(|mode| -region.excess(mode)),
         spectrum,
-        fixed_modes: design.synthesis.fixed_modes(),
-        output_gain: largest_gain(&design.observer.L)?,
+        fixed_modes: design.synthesis.fixed_modes().into_iter().chain(local_modes).collect(),
+        output_gain: largest_gain(&design.observer.L)?.max(local_gain),
         direct_gain: largest_gain(&design.observer.V)?,
-        chosen_gain: match &design.synthesis {
-            Synthesis::Poles(placement) => largest_gain(&placement.gain)?,
-            Synthesis::Lmi(results) => results.iter().map(|result| result.gain).fold(0.0, f64::max),
-        },
+        chosen_gain: chosen_gain.max(local_gain),
         guaranteed: guaranteed(&design.synthesis),
-        gains: ErrorGains::none("not asked"),
-        scenario: Err("not simulated".to_owned()),
+        gains,
+        scenario: Err("it has not run in a scenario".to_owned()),
     })
 }
 
+/// What the common form does not say of a hierarchical observer: its local observers.
+struct Parts {
+    /// Own states, those of all local observers included.
+    order: usize,
+    /// States of the plant.
+    states: usize,
+    /// The largest gain of a local observer.
+    local_gain: f64,
+    /// Modes that no gain of a local observer can move, once for each different one.
+    local_modes: Vec<Complex64>,
+}
+
+impl Parts {
+    fn of(design: &Design) -> Result<Self, NumericsError> {
+        let Some(observer) = &design.hierarchical else {
+            let (order, states) = (design.observer.order(), design.observer.P.nrows());
+            return Ok(Self { order, states, local_gain: 0.0, local_modes: Vec::new() });
+        };
+        let (n, size) = (observer.hierarchy.M.nrows(), observer.hierarchy.N.nrows());
+        let order = observer.hierarchy.order() + n * observer.locals().count();
+        let mut parts = Self { order, states: n * size, local_gain: 0.0, local_modes: Vec::new() };
+        for (local, _) in observer.distinct_locals() {
+            parts.local_gain = parts.local_gain.max(largest_gain(&local.h)?);
+            parts.local_modes.extend(&local.placement.fixed_modes);
+        }
+        Ok(parts)
+    }
+}
+
 /// The largest singular value of a matrix; zero for an empty one.
-pub(super) fn largest_gain(matrix: &DMatrix<f64>) -> Result<f64, NumericsError> {
+fn largest_gain(matrix: &DMatrix<f64>) -> Result<f64, NumericsError> {
     Ok(svd(matrix)?.s.first().copied().unwrap_or(0.0))
 }
 

@@ -9,12 +9,14 @@ use serde::{Deserialize, Serialize};
 
 pub use errors::{ErrorSize, ScenarioErrors};
 pub(super) use judged::judged;
-pub use network::compare_network;
+pub use network::{NetworkScenario, compare_network};
 pub use runs::{ComparedRun, Motion};
 
-use super::Scenario;
+use std::sync::Arc;
+
+use super::{Memo, Scenario};
 use crate::numerics::{Complex64, Tolerance, Watch};
-use crate::observer::{DesignChoice, DesignError, ErrorGains, ErrorStateSpace, Method, Order, assess};
+use crate::observer::{DesignChoice, DesignError, ErrorGains, ErrorStateSpace, Method, Order};
 use crate::system::Model;
 
 /// A design that is to be compared.
@@ -31,7 +33,9 @@ pub struct Contender<'a> {
 pub struct Comparison {
     /// The designs.
     pub rows: Vec<ComparisonRow>,
-    /// What a person should know of the scenario: a projected initial state, a trajectory that was cut off.
+    /// Whether the plant has a nonlinearity, so that the norms are those of its linear part.
+    pub linear_part: bool,
+    /// What a person should know: what the norms leave out, a projected initial state, a trajectory that was cut off.
     pub notes: Vec<String>,
 }
 
@@ -55,6 +59,10 @@ pub struct ComparedDesign {
     pub title: String,
     /// Number of its own states.
     pub order: usize,
+    /// Number of the plant's states.
+    pub states: usize,
+    /// Those of the plant's states whose estimate tends to the truth, from zero, in ascending order.
+    pub estimated: Vec<usize>,
     /// Whether every check was passed.
     pub verified: bool,
     /// Eigenvalues of the error dynamics.
@@ -69,7 +77,7 @@ pub struct ComparedDesign {
     pub output_gain: f64,
     /// `|V|`, the largest gain from `y` to the estimate at once.
     pub direct_gain: f64,
-    /// Norm of the gain that was chosen: by the placement, or the largest of the matrix inequalities.
+    /// Norm of the gain that was chosen: by the placements, or by the matrix inequalities; the largest of all.
     pub chosen_gain: f64,
     /// The attenuation that is proved, the largest of all subsystems.
     pub guaranteed: Option<f64>,
@@ -99,40 +107,62 @@ pub fn compare(
     tolerance: &Tolerance,
     watch: &Watch,
 ) -> Option<Compared> {
+    compare_with(&mut Memo::new(), (model, scenario), contenders, tolerance, watch)
+}
+
+/// The same with a memory of what was designed before.
+pub fn compare_with(
+    memo: &mut Memo,
+    (model, scenario): (&Model, &Scenario),
+    contenders: &[Contender<'_>],
+    tolerance: &Tolerance,
+    watch: &Watch,
+) -> Option<Compared> {
     let count = contenders.len().max(1) as f32;
-    let mut comparison = Comparison::default();
+    let mut comparison = Comparison { linear_part: model.lipschitz.is_some(), ..Comparison::default() };
     let mut found = Vec::new();
     for (k, contender) in contenders.iter().enumerate() {
         let watch = watch.part(0.8 * k as f32 / count, 0.8 * (k + 1) as f32 / count);
         if !watch.go_on(0.0, &format!("designing {}", contender.name)) {
             return None;
         }
-        let assessed = assess(model, contender.choice, tolerance, &watch.part(0.0, 0.7));
-        let outcome = assessed.map_err(undecided).and_then(|assessment| assessment.outcome);
+        let assessed = memo.assess(model, contender.choice, tolerance, &watch.part(0.0, 0.7));
         if !watch.go_on(0.7, &format!("gains of {}", contender.name)) {
             return None;
         }
-        let outcome = outcome.and_then(|design| {
-            let (row, errors) = judged::judged(&model.system, &design, tolerance).map_err(undecided)?;
-            found.push((k, design, errors));
+        let outcome = assessed.map_err(undecided).and_then(|assessment| {
+            let judged = memo.judged(model, &assessment, tolerance).map_err(undecided)?;
+            let Some((row, errors)) = judged else {
+                return Err(assessment.outcome.as_ref().err().cloned().unwrap_or(DesignError::Cancelled));
+            };
+            found.push((k, Arc::clone(&assessment), errors));
             Ok(row)
         });
         let DesignChoice { method, order, .. } = *contender.choice;
         comparison.rows.push(ComparisonRow { name: contender.name.to_owned(), method, order, outcome });
     }
-    let designs: Vec<_> = found.iter().map(|(row, design, _)| (contenders[*row].name, design)).collect();
+    let found: Vec<_> = found
+        .iter()
+        .filter_map(|(row, assessment, errors)| Some((*row, assessment.outcome.as_ref().ok()?, errors)))
+        .collect();
+    let designs: Vec<_> = found.iter().map(|(row, design, _)| (contenders[*row].name, *design)).collect();
     let motions = runs::together((model, scenario), &designs, tolerance, &watch.part(0.8, 1.0))?;
     let mut runs = Vec::new();
-    for ((row, design, errors), motion) in found.iter().zip(motions) {
+    for ((row, design, errors), motion) in found.into_iter().zip(motions) {
         let errors_of = motion.as_ref().map(|motion| errors::of(motion, design)).map_err(Clone::clone);
-        if let Ok(row) = &mut comparison.rows[*row].outcome {
+        if let Ok(row) = &mut comparison.rows[row].outcome {
             row.scenario = errors_of;
         }
-        runs.push(ComparedRun { row: *row, errors: errors.clone(), motion: motion.ok() });
+        runs.push(ComparedRun { row, errors: errors.clone(), motion: motion.ok(), network: None });
     }
-    comparison.notes = runs::notes(&runs, &comparison);
+    let linear = comparison.linear_part.then(|| LINEAR_PART.to_owned());
+    comparison.notes = linear.into_iter().chain(runs::notes(&runs, &comparison)).collect();
     Some(Compared { comparison, runs })
 }
+
+/// What the norms of a nonlinear plant are worth.
+const LINEAR_PART: &str = "the plant has a Lipschitz term: H-infinity norms and the figure of gains are those of the error \
+                           of the linear part, f = 0; of the whole plant only the guaranteed gamma says something";
 
 /// Conditions that cannot be decided, as a reason why there is no design.
 fn undecided(error: impl std::fmt::Display) -> DesignError {

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use super::{Comparison, ErrorStateSpace};
 use crate::numerics::{Tolerance, Watch};
 use crate::observer::Design;
-use crate::simulation::{Observed, ObserverTrajectory, Scenario, SimulationError, Trajectory};
+use crate::simulation::{
+    NetworkTrajectory, Observed, ObserverTrajectory, Scenario, SimulationError, Trajectory,
+};
 use crate::system::Model;
 
 /// A design that exists, with what is drawn of it.
@@ -17,6 +19,8 @@ pub struct ComparedRun {
     pub errors: Option<ErrorStateSpace>,
     /// Its motion, where it can be simulated.
     pub motion: Option<Motion>,
+    /// The motion of a network that is never written as one system: the whole and some subsystems.
+    pub network: Option<NetworkTrajectory>,
 }
 
 /// A trajectory, which several observers may share, and the place of one of them in it.
