@@ -556,7 +556,7 @@ fn more_equations_than_unknowns_need_the_general_form() {
     let conditions = asked(&system, Order::Full);
     let first = found(&conditions, "(A1)");
     assert_eq!(first.verdict, Verdict::Fails, "{}", first.summary);
-    assert!(first.summary.contains("e = 3 equations for n + q = 2"), "{}", first.summary);
+    assert!(first.summary.contains("m = 3 equations for n + p = 2"), "{}", first.summary);
     assert!(first.remedies[0].contains("general form"), "{:?}", first.remedies);
     verified(&designed(&system, &choice(Order::General, &[-3.0])).unwrap());
 }

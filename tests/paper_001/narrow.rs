@@ -146,6 +146,36 @@ fn a_cluster_of_zeros_is_stable_only_when_every_member_is() {
 }
 
 #[test]
+fn an_unknown_input_without_effect_is_named_as_such() {
+    let mut system = example();
+    system.D = side_by_side(&[&system.D, &DMatrix::zeros(3, 1)]);
+    system.F = side_by_side(&[&system.F, &DMatrix::zeros(3, 1)]);
+    let conditions = asked(&system, Order::Full);
+    let second = found(&conditions, "(A2)");
+    assert_eq!(second.verdict, Verdict::Fails, "{}", second.summary);
+    assert!(second.summary.contains("d2 has no effect at all"), "{}", second.summary);
+    assert!(second.remedies[0].contains("remove it"), "{:?}", second.remedies);
+    assert_eq!(second.remedies.len(), 1, "no integrator and no sensor finds it: {:?}", second.remedies);
+    // the same input twice
+    system.D.column_mut(1).copy_from(&example().D.column(0));
+    system.F.column_mut(1).copy_from(&example().F.column(0));
+    let conditions = asked(&system, Order::Full);
+    let second = found(&conditions, "(A2)");
+    assert!(
+        second.remedies[0].starts_with("a combination of d1, d2 has no effect at all"),
+        "{:?}",
+        second.remedies
+    );
+    // beside one that differential equations alone contain
+    system.D = dmatrix![1.0, 0.0; 0.0, 0.0; 0.0, 0.0];
+    system.F.fill(0.0);
+    let conditions = asked(&system, Order::Full);
+    let second = found(&conditions, "(A2)");
+    assert!(second.summary.contains("d2 has no effect at all"), "{}", second.summary);
+    assert!(second.remedies[1].starts_with("d1 stands in no algebraic equation"), "{:?}", second.remedies);
+}
+
+#[test]
 fn unique_is_said_of_one_output_without_fixed_modes_alone() {
     let meaning = |design: &Design, name: &str| {
         let matrix = design.matrices.iter().find(|matrix| matrix.name == name).unwrap();
