@@ -209,3 +209,26 @@ fn unique_is_said_of_one_output_without_fixed_modes_alone() {
     says(&design, "outputs are free of the unknown input: L is one of many gains with these poles");
     assert_eq!(meaning(&design, "L"), "gain; only L (I - W2 W2+) has an effect");
 }
+
+#[test]
+fn texts_speak_of_steps_in_discrete_time() {
+    let system = DescriptorSystem { time: TimeDomain::Discrete, ..example() };
+    let design = designed(&system, &choice(Order::Full, &[0.5, -0.25])).unwrap();
+    let texts: Vec<&str> = design
+        .matrices
+        .iter()
+        .map(|matrix| matrix.meaning.as_str())
+        .chain(design.verification.checks.iter().map(|check| check.statement.as_str()))
+        .collect();
+    for wanted in ["z[k+1] = H z", "K H^k e0", "G H^k e0", "e[k+1] = H e[k] for every d[k]", "x s^k"] {
+        assert!(texts.iter().any(|text| text.contains(wanted)), "{wanted}: {texts:?}");
+    }
+    for wrong in ["z' =", "e' =", "e^("] {
+        assert!(!texts.iter().any(|text| text.contains(wrong)), "{wrong}: {texts:?}");
+    }
+    let design = paper_design(Order::Full);
+    assert!(
+        design.matrices.iter().any(|matrix| matrix.meaning.contains("K e^(H t) e0")),
+        "continuous time as in the paper"
+    );
+}
