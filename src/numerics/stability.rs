@@ -25,6 +25,23 @@ pub enum ModePosition {
     Unstable,
 }
 
+impl ModePosition {
+    /// Whether a verdict on modes hangs on the boundary: none lies clearly outside, and at least one close to it.
+    ///
+    /// `positions` are those for a margin that counts as close, not for the margin of the verdict itself.
+    pub fn hang_on_the_boundary(positions: impl IntoIterator<Item = Self>) -> bool {
+        let mut close = false;
+        for position in positions {
+            match position {
+                Self::Unstable => return false,
+                Self::OnBoundary => close = true,
+                Self::Stable => {}
+            }
+        }
+        close
+    }
+}
+
 impl StabilityRegion {
     /// The region of difference equations, or of differential ones.
     pub fn of(discrete: bool) -> Self {
@@ -99,6 +116,14 @@ mod tests {
         let members = [Complex64::from(-2e-8), Complex64::from(1e-8)];
         let position = StabilityRegion::LeftHalfPlane.position(Complex64::from(-5e-9), &members, 1e-9);
         assert_ne!(position, ModePosition::Stable, "a member has a positive real part");
+    }
+
+    #[test]
+    fn a_mode_that_is_clearly_outside_leaves_nothing_to_hang_on() {
+        use ModePosition::{OnBoundary, Stable, Unstable};
+        assert!(ModePosition::hang_on_the_boundary([Stable, OnBoundary]), "one is close");
+        assert!(!ModePosition::hang_on_the_boundary([Stable, Stable]), "all are clearly inside");
+        assert!(!ModePosition::hang_on_the_boundary([OnBoundary, Unstable]), "one decides");
     }
 
     #[test]

@@ -179,16 +179,20 @@ fn largest(matrix: &DMatrix<f64>) -> f64 {
 const SAMPLE_POINTS: [Complex64; 3] =
     [Complex64::new(0.83, 1.27), Complex64::new(2.1, -0.4), Complex64::new(0.31, 3.9)];
 
+/// Points off the axes, at the pace of an observer.
+pub(super) fn sample_points(system: &DescriptorSystem, observer: &LinearObserver) -> [Complex64; 3] {
+    let size = 1.0 + observer.N.norm() / (observer.order().max(1) as f64).sqrt();
+    let discrete = system.time == TimeDomain::Discrete;
+    SAMPLE_POINTS.map(|point| if discrete { point + 1.0 } else { point * size })
+}
+
 /// Joint transfer functions of plant and observer at a few points (identities of rational functions).
 ///
 /// `u -> x - x_hat` and `u -> d_hat` vanish; `d -> d_hat` equals `I - s [0 I](sI - N)^-1 [0; I]` in the error
 /// coordinates, which for a constant `d` means `d_hat -> d`; `None` when the plant has no transfer function.
 fn transfer(system: &DescriptorSystem, observer: &LinearObserver) -> Option<Vec<Check>> {
-    let size = 1.0 + observer.N.norm() / (observer.order().max(1) as f64).sqrt();
-    let discrete = system.time == TimeDomain::Discrete;
     let mut worst = 0.0_f64;
-    for point in SAMPLE_POINTS {
-        let s = if discrete { point + 1.0 } else { point * size };
+    for s in sample_points(system, observer) {
         let response = Response::at(s, system, observer, &complex(&system.B), &identity(system.n_inputs()))?;
         let scale = 1.0 + response.x.norm() + response.x_hat.norm() + response.terms;
         worst = worst.max((&response.x - &response.x_hat).norm() / scale).max(response.d_hat.norm() / scale);
@@ -204,7 +208,7 @@ fn transfer(system: &DescriptorSystem, observer: &LinearObserver) -> Option<Vec<
 }
 
 /// Relative size below which a transfer function value counts as zero; the joint solve loses a few digits.
-const TRANSFER_LIMIT: f64 = 1e-7;
+pub(super) const TRANSFER_LIMIT: f64 = 1e-7;
 
 const STEADY: &str = "constant unknown input";
 
@@ -288,7 +292,8 @@ impl Response {
 /// Reciprocal condition below which a pencil value counts as singular.
 const SINGULAR_LIMIT: f64 = 1e-13;
 
-fn solve(matrix: &DMatrix<Complex64>, right: &DMatrix<Complex64>) -> Option<DMatrix<Complex64>> {
+/// Solves a square system; `None` where it is singular, or so close to it that the result would mean nothing.
+pub(super) fn solve(matrix: &DMatrix<Complex64>, right: &DMatrix<Complex64>) -> Option<DMatrix<Complex64>> {
     if matrix.is_empty() {
         return Some(DMatrix::zeros(0, right.ncols()));
     }
@@ -303,11 +308,12 @@ fn solve(matrix: &DMatrix<Complex64>, right: &DMatrix<Complex64>) -> Option<DMat
     lu.solve(right)
 }
 
-fn pencil(s: Complex64, E: &DMatrix<f64>, A: &DMatrix<f64>) -> DMatrix<Complex64> {
+/// `s E - A`.
+pub(super) fn pencil(s: Complex64, E: &DMatrix<f64>, A: &DMatrix<f64>) -> DMatrix<Complex64> {
     E.zip_map(A, |e, a| s * e - a)
 }
 
-fn complex(matrix: &DMatrix<f64>) -> DMatrix<Complex64> {
+pub(super) fn complex(matrix: &DMatrix<f64>) -> DMatrix<Complex64> {
     matrix.map(Complex64::from)
 }
 

@@ -4,12 +4,15 @@ use egui::{RichText, Ui};
 
 use super::super::{formula, theme};
 use super::errata;
-use crate::document::{Document, MatrixSyntax, matrix_to_text};
+use crate::document::{Document, MatrixSyntax, PlantData, matrix_to_text};
 use crate::observer::{Design, Method, NamedMatrix};
 use crate::paper::printed;
+use crate::system::TimeDomain;
 
 /// Draws the gains, the checks and the notes of a design.
 pub(super) fn show(ui: &mut Ui, document: &Document, method: Method, design: &Design) {
+    let discrete =
+        matches!(&document.plant, PlantData::Descriptor(data) if data.time == TimeDomain::Discrete);
     for note in &design.notes {
         ui.label(RichText::new(note).small().color(theme::near(ui)));
     }
@@ -17,7 +20,7 @@ pub(super) fn show(ui: &mut Ui, document: &Document, method: Method, design: &De
         for matrix in &design.matrices {
             named_matrix(ui, document, method, matrix);
         }
-        formula::remark(ui, equations(method));
+        formula::remark(ui, equations(method, discrete));
     });
     egui::CollapsingHeader::new("Verification").default_open(false).show(ui, |ui| {
         for check in &design.verification.checks {
@@ -39,11 +42,19 @@ pub(super) fn show(ui: &mut Ui, document: &Document, method: Method, design: &De
 }
 
 /// The observer in the letters of its paper.
-fn equations(method: Method) -> &'static str {
+fn equations(method: Method, discrete: bool) -> &'static str {
     match method {
+        Method::Proportional | Method::ProportionalIntegral if discrete => {
+            "Observer: z[k+1] = F z + (L1 + L2) y + J u + T1 N f_hat, f_hat[k+1] = f_hat + L3 (y - C x_hat), \
+             x_hat = M1 z + T2 y, where y = [-B1 u; y*] holds the algebraic equations and the measurements."
+        }
         Method::Proportional | Method::ProportionalIntegral => {
             "Observer: z' = F z + (L1 + L2) y + J u + T1 N f_hat, f_hat' = L3 (y - C x_hat), x_hat = M1 z + T2 y, where \
              y = [-B1 u; y*] holds the algebraic equations and the measurements."
+        }
+        Method::InputDecoupled if discrete => {
+            "Observer: z[k+1] = H z + J1 u + J2 y, x_hat = K z + T1 u + T2 y, d_hat = G z + Q1 u + Q2 y; the errors are \
+             K H^k e0 and G H^k e0 whatever the unknown input does."
         }
         Method::InputDecoupled => {
             "Observer: z' = H z + J1 u + J2 y, x_hat = K z + T1 u + T2 y, d_hat = G z + Q1 u + Q2 y; the errors are K e^(H t) e0 \

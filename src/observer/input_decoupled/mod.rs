@@ -24,6 +24,7 @@
 mod conditions;
 mod coordinates;
 mod decoupling;
+mod noise;
 mod realize;
 mod reduction;
 
@@ -72,7 +73,9 @@ pub fn design(
     let reduction =
         if general { general_reduction(&at, tolerance)? } else { paper_reduction(&at, tolerance)? };
     let request = PoleRequest { choice, discrete: system.time == TimeDomain::Discrete, tolerance };
-    let placement = request.place(&reduction.A, &reduction.C)?;
+    let (output, unit) = reduction.output_in_unit_of_state();
+    let mut placement = request.place(&reduction.A, &output)?;
+    placement.gain *= unit;
     let theorem = Theorem2::new(&at, &reduction, &placement.gain);
     let observer = theorem.observer();
     let claim = claim(&at, &reduction, &placement.gain);
@@ -84,7 +87,7 @@ pub fn design(
     let form = if general { "general form" } else { "order rank E" };
     Ok(Design {
         title: format!("input-decoupled observer, {form} ({})", observer.order()),
-        matrices: named(&at, reduction, theorem, &placement.gain, general),
+        matrices: named(system.time, &at, reduction, theorem, &placement, general),
         observer,
         injection: None,
         hierarchical: None,
@@ -129,39 +132,70 @@ fn notes_on_shape(
         return notes;
     }
     let gain = if general { "Lc" } else { "L" };
-    notes.push(match reduction.C.nrows() {
-        1 if general => {
-            "one output is free of the unknown input: H, J1 and J2 are unique for these poles".to_owned()
-        }
-        1 => format!(
-            "one output is free of the unknown input: H, J1 and J2 are unique for these poles; of {gain} only \
-             {gain} (I - W2 W2+) is determined"
-        ),
-        free => format!(
-            "{free} outputs are free of the unknown input: {gain} is one of many gains with these poles; K, T1, T2, G, \
-             Q1 and Q2 do not depend on it"
-        ),
+    let fixed = !placement.fixed_modes.is_empty();
+    let outputs = match reduction.C.nrows() {
+        1 => "one output is free of the unknown input".to_owned(),
+        free => format!("{free} outputs are free of the unknown input"),
+    };
+    notes.push(if is_unique(reduction, placement) {
+        let of_the_gain =
+            if general { "" } else { "; of L only L (I - W2 W2+) has an effect, and that is determined" };
+        format!("{outputs}: H, J1 and J2 are unique for these poles{of_the_gain}")
+    } else if reduction.rank.rank == 1 && !fixed {
+        format!(
+            "{outputs}, all of them multiples of one: H is unique for these poles; {gain}, J1 and J2 are not; K, T1, T2, G, \
+             Q1 and Q2 do not depend on the gain"
+        )
+    } else {
+        let why = if reduction.rank.rank == 1 { ", but the fixed modes leave a choice" } else { "" };
+        format!(
+            "{outputs}{why}: {gain} is one of many gains with these poles; K, T1, T2, G, Q1 and Q2 do not depend on it"
+        )
     });
     notes
 }
 
+/// Whether the poles determine `L (I - W2 W2+)`, and with it the observer: one output, and every mode follows it.
+fn is_unique(reduction: &Reduction, placement: &Placement) -> bool {
+    reduction.C.nrows() == 1 && reduction.rank.rank == 1 && placement.fixed_modes.is_empty()
+}
+
 /// The matrices under the paper's names.
 fn named(
+    time: TimeDomain,
     at: &Coordinates,
     reduction: Reduction,
     theorem: Theorem2,
-    Lc: &DMatrix<f64>,
+    placement: &Placement,
     general: bool,
 ) -> Vec<NamedMatrix> {
     let Theorem2 { H, J1, J2, K, T1, T2, G, Q1, Q2 } = theorem;
+    let Lc = &placement.gain;
+    let [of_h, of_k, of_g] = match time {
+        TimeDomain::Continuous => [
+            "error dynamics, z' = H z + J1 u + J2 y",
+            "z to the state estimate; the error is K e^(H t) e0",
+            "z to the unknown-input estimate; the error is G e^(H t) e0",
+        ],
+        TimeDomain::Discrete => [
+            "error dynamics, z[k+1] = H z + J1 u + J2 y",
+            "z to the state estimate; the error is K H^k e0",
+            "z to the unknown-input estimate; the error is G H^k e0",
+        ],
+    };
+    let of_l = if is_unique(&reduction, placement) {
+        "gain; only L (I - W2 W2+) is determined"
+    } else {
+        "gain; only L (I - W2 W2+) has an effect"
+    };
     let mut all = vec![
-        ("H", "error dynamics, z' = H z + J1 u + J2 y", H),
+        ("H", of_h, H),
         ("J1", "known input to z", J1),
         ("J2", "output to z", J2),
-        ("K", "z to the state estimate; the error is K e^(H t) e0", K),
+        ("K", of_k, K),
         ("T1", "known input to the state estimate", T1),
         ("T2", "output to the state estimate", T2),
-        ("G", "z to the unknown-input estimate; the error is G e^(H t) e0", G),
+        ("G", of_g, G),
         ("Q1", "known input to the unknown-input estimate", Q1),
         ("Q2", "output to the unknown-input estimate", Q2),
     ];
@@ -171,7 +205,7 @@ fn named(
         all.push(("C_general", "output matrix of that pair", reduction.C));
     } else {
         let Z = reduction.Y_out.transpose();
-        all.push(("L", "gain; only L (I - W2 W2+) is determined", Lc * &reduction.Y_out));
+        all.push(("L", of_l, Lc * &reduction.Y_out));
         all.push(("A_tilde", "state matrix of (6)", reduction.A));
         all.push(("B_tilde", "known input of (6)", reduction.B));
         all.push(("C_tilde", "output matrix of (6), (I - W2 W2+) C_bar1", &Z * reduction.C));

@@ -4,7 +4,8 @@
 use nalgebra::DMatrix;
 
 use super::Coordinates;
-use crate::numerics::{NumericsError, Tolerance, pseudo_inverse, stack, subspaces};
+use super::noise::{cleaned_output, cleaned_state, size};
+use crate::numerics::{NumericsError, RankDecision, Tolerance, pseudo_inverse, stack, subspaces};
 
 /// An ordinary system that `x1` obeys on every trajectory of the plant, whatever its unknown inputs and free states do.
 ///
@@ -26,6 +27,9 @@ use crate::numerics::{NumericsError, Tolerance, pseudo_inverse, stack, subspaces
 /// `A`: r x r; `B`: r x k; `Y`: r x p; `C`: s x r; `U_out`: s x k; `Y_out`: s x p; `R1`: (n - r + q) x r;
 /// `R2`: (n - r + q) x k; `R3`: (n - r + q) x p; `state`: r x (e - r); `output`: s x (e - r);
 /// `estimate`: (n - r + q) x (e - r).
+///
+/// # Tolerance
+/// What of `A` and `C` is nothing but the rounding of the terms that they were computed from is zero.
 #[derive(Clone, Debug)]
 pub struct Reduction {
     /// State matrix of the pair (the paper's `A~1`).
@@ -36,6 +40,8 @@ pub struct Reduction {
     pub Y: DMatrix<f64>,
     /// Output matrix of the pair, without redundant rows (`Z' C_bar1`, with `Z Z' = I - W2 W2+`).
     pub C: DMatrix<f64>,
+    /// The rank of `C / norm C`, judged against the terms that `C` was computed from.
+    pub rank: RankDecision,
     /// Known input in the pair's output (`-Z' B_bar2`).
     pub U_out: DMatrix<f64>,
     /// Measured output in the pair's output (`Z'`).
@@ -52,6 +58,18 @@ pub struct Reduction {
     pub output: DMatrix<f64>,
     /// Multiplier of the algebraic equations in the estimate.
     pub estimate: DMatrix<f64>,
+}
+
+impl Reduction {
+    /// `unit C`, as large as `A`, and `unit`, a power of two.
+    ///
+    /// What counts of `C` is no rounding: the unit of y, in which it is small or large, must not hide the dynamics.
+    pub(super) fn output_in_unit_of_state(&self) -> (DMatrix<f64>, f64) {
+        let (A, C) = (size(&self.A), size(&self.C));
+        let unit = if A > 0.0 && C > 0.0 { (A.log2() - C.log2()).round().exp2() } else { 1.0 };
+        let unit = if unit.is_normal() { unit } else { 1.0 };
+        (&self.C * unit, unit)
+    }
 }
 
 /// The paper's reduction, which needs (A1) and (A2).
@@ -92,10 +110,20 @@ pub fn paper_reduction(at: &Coordinates, tolerance: &Tolerance) -> Result<Reduct
     // what of the output does not depend on w
     let Zt = subspaces(&W2, at.scale, tolerance)?.left_null.transpose();
 
+    // Pa A3 is known up to rounding in S Pa A3 = A3, and Z up to rounding in Z' W2 = 0
+    let A3_terms = size(A3).max(size(&S) * size(&(&Pa * A3)));
+    let C_bar1_terms = size(C1) + size(&C_bar21) * A3_terms;
+    let state_terms = size(A1) + size(&A_bar21) * A3_terms + size(&W1W2_pinv) * C_bar1_terms;
+    let output_terms = size(&(Zt.abs() * C1.abs()))
+        + size(&(Zt.abs() * C_bar21.abs())) * A3_terms
+        + size(&W2) * size(&(&W2_pinv * &C_bar1));
+    let (C, rank) = cleaned_output(&(&Zt * &C_bar1), output_terms, tolerance)?;
+
     Ok(Reduction {
-        A: A_bar1 - &W1W2_pinv * &C_bar1,
+        A: cleaned_state(A_bar1 - &W1W2_pinv * &C_bar1, state_terms, tolerance),
         B: B_bar1 - &W1W2_pinv * &B_bar2,
-        C: &Zt * &C_bar1,
+        C,
+        rank,
         U_out: -(&Zt * &B_bar2),
         R1: -(&Pa * A3) - &PbW2_pinv * &C_bar1,
         R2: -(&Pa * B2) - &PbW2_pinv * &B_bar2,
@@ -139,11 +167,16 @@ pub fn general_reduction(at: &Coordinates, tolerance: &Tolerance) -> Result<Redu
 
     let A3C1 = stack(&[A3, C1]);
     let R1 = -(&Ms_pinv * &A3C1);
+    // Z is known up to rounding in Z' Ms = 0
+    let state_terms = size(A1) + size(&(&X * &Ms_pinv)) * size(&A3C1).max(size(&Ms) * size(&R1));
+    let output_terms = size(&(Za.abs() * A3.abs() + Zy.abs() * C1.abs())) + size(&Ms) * size(&R1);
+    let (C, rank) = cleaned_output(&(&Zt * &A3C1), output_terms, tolerance)?;
     Ok(Reduction {
-        A: A1 + &X * &R1,
+        A: cleaned_state(A1 + &X * &R1, state_terms, tolerance),
         B: B1 - &X * &Ga * B2,
         Y: &X * &Gy,
-        C: &Zt * &A3C1,
+        C,
+        rank,
         U_out: -(&Za * B2),
         Y_out: Zy,
         R2: -(&Ga * B2),

@@ -177,9 +177,8 @@ fn unobservable(point: &RankDropPoint, region: StabilityRegion, margin: f64) -> 
 
 /// No mode is clearly outside, and at least one is close to the boundary.
 fn hangs_on_the_margin(modes: &[UnobservableMode], region: StabilityRegion, close: f64) -> bool {
-    let positions: Vec<ModePosition> =
-        modes.iter().map(|mode| region.position(mode.s, &mode.members, close)).collect();
-    !positions.contains(&ModePosition::Unstable) && positions.contains(&ModePosition::OnBoundary)
+    let positions = modes.iter().map(|mode| region.position(mode.s, &mode.members, close));
+    ModePosition::hang_on_the_boundary(positions)
 }
 
 #[cfg(test)]

@@ -36,7 +36,7 @@ impl Ask<'_> {
             let excess = required - decision.rank;
             result.summary = if e > n + q {
                 format!(
-                    "{}; it cannot hold with e = {e} equations for n + q = {} states and unknown inputs",
+                    "{}; it cannot hold with m = {e} equations for n + p = {} states and unknown inputs",
                     result.summary,
                     n + q
                 )
@@ -91,7 +91,12 @@ impl Ask<'_> {
                 coordinates: self.coordinate_names(),
             });
             let algebraic = self.algebraic_rank()?.rank;
-            let hidden = self.hidden_inputs()?;
+            let Hidden { without_effect, only_differential: hidden, n_without_effect } =
+                self.hidden_inputs()?;
+            if let Some((what, remedy)) = self.said_of(&without_effect) {
+                result.summary = format!("{}; {what}", result.summary);
+                result.remedies.push(remedy);
+            }
             if !hidden.is_empty() {
                 result.summary =
                     format!("{}; {} nowhere but in differential equations", result.summary, stand(&hidden));
@@ -101,16 +106,18 @@ impl Ask<'_> {
                     stand(&hidden)
                 ));
             }
-            if p + algebraic < required {
+            // no output shows what has no effect
+            let determined = required - n_without_effect;
+            if p + algebraic < determined {
                 result.remedies.push(format!(
-                    "at least {} outputs are needed, there {} {p}: {required} algebraic states and unknown inputs, of \
+                    "at least {} outputs are needed, there {} {p}: {determined} algebraic states and unknown inputs, of \
                      which the algebraic equations determine {algebraic}",
-                    required - algebraic,
+                    determined - algebraic,
                     if p == 1 { "is" } else { "are" }
                 ));
             }
             // a sensor of a state shows no such input
-            if hidden.is_empty() {
+            if hidden.is_empty() && without_effect.is_empty() {
                 result.remedies.extend(single_sensors(self.system, |extended| {
                     let ask = Ask::new(extended, self.tolerance)?;
                     Ok(ask.joint_rank()?.rank == ask.n_unknown())
@@ -124,13 +131,53 @@ impl Ask<'_> {
         Ok(result)
     }
 
-    /// The unknown inputs of combinations that neither the algebraic equations nor the outputs contain: `ker [D2; F]`.
-    fn hidden_inputs(&self) -> Result<Vec<String>, PropertyError> {
-        let seen = stack(&[&self.at.D2, &self.at.F]);
-        let hidden = subspaces(&seen, self.at.scale, self.tolerance)?.null;
+    /// The unknown inputs of combinations that neither the algebraic equations nor the outputs contain, `ker [D2; F]`,
+    /// parted by whether the differential equations contain them.
+    fn hidden_inputs(&self) -> Result<Hidden, PropertyError> {
+        let kernel = |D: &DMatrix<f64>| subspaces(&stack(&[D, &self.at.F]), self.at.scale, self.tolerance);
+        let (unseen, nowhere) = (kernel(&self.at.D2)?.null, kernel(&self.system.D)?.null);
+        let rest = &unseen - &nowhere * nowhere.tr_mul(&unseen);
         const PART: f64 = 1e-9;
-        let takes_part = |row: &usize| hidden.row(*row).iter().any(|x| x.abs() > PART);
-        Ok((0..hidden.nrows()).filter(takes_part).map(|i| format!("d{}", i + 1)).collect())
+        let names = |directions: &DMatrix<f64>| {
+            let takes_part = |row: &usize| directions.row(*row).iter().any(|x| x.abs() > PART);
+            (0..directions.nrows()).filter(takes_part).collect::<Vec<usize>>()
+        };
+        let only_differential = names(&rest).into_iter().map(|i| format!("d{}", i + 1)).collect();
+        Ok(Hidden { without_effect: names(&nowhere), n_without_effect: nowhere.ncols(), only_differential })
+    }
+
+    /// What is said of unknown inputs without effect, and what to do; `None` when there are none.
+    fn said_of(&self, without_effect: &[usize]) -> Option<(String, String)> {
+        let DescriptorSystem { D, F, .. } = self.system;
+        let is_zero = |i: &&usize| D.column(**i).iter().chain(F.column(**i).iter()).all(|x| *x == 0.0);
+        let listed =
+            |inputs: &[usize]| inputs.iter().map(|i| format!("d{}", i + 1)).collect::<Vec<_>>().join(", ");
+        let zero: Vec<usize> = without_effect.iter().filter(is_zero).copied().collect();
+        if let [one] = zero[..] {
+            let what = format!("d{} has no effect at all", one + 1);
+            let remedy = format!(
+                "{what}: its columns of D and F are zero, so that no observer can estimate it; remove it, or enter what it \
+                 acts on"
+            );
+            return Some((what, remedy));
+        }
+        if !zero.is_empty() {
+            let what = format!("{} have no effect at all", listed(&zero));
+            let remedy = format!(
+                "{what}: their columns of D and F are zero, so that no observer can estimate them; remove them, or enter what \
+                 they act on"
+            );
+            return Some((what, remedy));
+        }
+        if without_effect.is_empty() {
+            return None;
+        }
+        let what = format!("a combination of {} has no effect at all", listed(without_effect));
+        let remedy = format!(
+            "{what}: their columns of [D; F] are dependent, so that no observer can tell them apart; replace them by fewer \
+             unknown inputs"
+        );
+        Some((what, remedy))
     }
 
     /// Verdict and summary from the compressed rank, which decides, and the printed one beside it.
@@ -162,6 +209,16 @@ impl Ask<'_> {
             )
         };
     }
+}
+
+/// Unknown inputs that neither the algebraic equations nor the outputs contain.
+struct Hidden {
+    /// Those that take part in a combination that stands nowhere at all, from zero.
+    without_effect: Vec<usize>,
+    /// Number of independent combinations that stand nowhere at all.
+    n_without_effect: usize,
+    /// Names of those that stand in differential equations.
+    only_differential: Vec<String>,
 }
 
 /// `d1 stands`, or `a combination of d1 and d2 stands`.

@@ -3,7 +3,9 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{Ask, condition};
-use crate::numerics::{Complex64, PbhMode, StabilityRegion, Tolerance, pbh_modes, side_by_side};
+use crate::numerics::{
+    Complex64, ModePosition, PbhMode, StabilityRegion, Tolerance, observable_quotient, side_by_side,
+};
 use crate::observer::input_decoupled::{Coordinates, Reduction, general_reduction, paper_reduction};
 use crate::observer::proportional_integral::single_sensors;
 use crate::observer::{Condition, Evidence, PointEvidence, Verdict, Witness, show};
@@ -45,17 +47,17 @@ impl Ask<'_> {
 
     fn fill_pair(&self, result: &mut Condition, pair: &Reduction, of: &str) -> Result<(), PropertyError> {
         let zeros = Zeros::of(self.system.time, pair, self.tolerance)?;
-        let bad = zeros.bad().next();
+        let bad = zeros.bad();
         result.verdict = Verdict::of(bad.is_none(), zeros.near());
         let hidden: Vec<&PbhMode> = zeros.modes.iter().filter(|m| m.unobservable).collect();
         result.summary = match (bad, hidden.len()) {
-            (Some(zero), _) => {
-                let place = if zeros.region.contains(zero.value, -zeros.margin) {
+            (Some((_, worst)), _) => {
+                let place = if zeros.region.contains(worst, -zeros.margin) {
                     "on the boundary of stability, which counts as not stable"
                 } else {
                     "not stable"
                 };
-                format!("the invariant zero {} is {place}", show(zero.value))
+                format!("the invariant zero {} is {place}", show(worst))
             }
             (None, 0) => {
                 let closest = zeros.modes.iter().map(|m| m.distance).fold(f64::INFINITY, f64::min);
@@ -75,10 +77,10 @@ impl Ask<'_> {
             multiplicity: m.multiplicity,
             distance: m.distance,
             loses_rank: m.unobservable,
-            stable: zeros.region.contains(m.value, zeros.margin),
+            stable: zeros.position(m, zeros.margin) == ModePosition::Stable,
         });
         result.evidence.push(Evidence::Points { of: of.to_owned(), points: points.collect() });
-        result.witness = bad.map(|zero| Witness {
+        result.witness = bad.map(|(zero, _)| Witness {
             s: Some(zero.value),
             direction: lifted(&self.at, pair, &zero.direction),
             coordinates: self.coordinate_names(),
@@ -97,35 +99,68 @@ impl Ask<'_> {
 /// The modes of a pair, of which the unobservable ones are the invariant zeros of the system.
 struct Zeros {
     modes: Vec<PbhMode>,
+    /// The eigenvalues on the unobservable subspace, one by one: the members of the unobservable modes.
+    hidden: Vec<Complex64>,
     region: StabilityRegion,
     margin: f64,
     limit: f64,
     gap: f64,
+    /// What of the output counts could be rounding, or the other way round.
+    faint: bool,
 }
 
 impl Zeros {
     fn of(time: TimeDomain, pair: &Reduction, tolerance: &Tolerance) -> Result<Self, PropertyError> {
         let region = StabilityRegion::of(time == TimeDomain::Discrete);
+        let (output, _) = pair.output_in_unit_of_state();
+        let found = observable_quotient(&pair.A, &output, tolerance)?;
         Ok(Self {
-            modes: pbh_modes(&pair.A, &pair.C, tolerance)?,
+            modes: found.modes,
+            hidden: found.fixed_modes,
             region,
             margin: region.margin(pair.A.norm().max(1.0), tolerance),
             limit: tolerance.mode,
             gap: tolerance.gap,
+            faint: pair.rank.fragile,
         })
     }
 
-    /// The zeros that are not stable.
-    fn bad(&self) -> impl Iterator<Item = &PbhMode> {
-        self.modes.iter().filter(|m| m.unobservable && !self.region.contains(m.value, self.margin))
+    /// The invariant zeros that an unobservable mode stands for: those to which no other one is closer.
+    fn members(&self, mode: &PbhMode) -> Vec<Complex64> {
+        let unseen = || self.modes.iter().filter(|m| m.unobservable).map(|m| m.value);
+        let belongs =
+            |zero: &Complex64| unseen().all(|other| (zero - mode.value).norm() <= (zero - other).norm());
+        self.hidden.iter().copied().filter(belongs).collect()
     }
 
-    /// Whether a mode that is not stable is hardly seen.
+    /// Where a mode lies; an unobservable one is stable only when every member is.
+    fn position(&self, mode: &PbhMode, margin: f64) -> ModePosition {
+        let members = if mode.unobservable { self.members(mode) } else { Vec::new() };
+        self.region.position(mode.value, &members, margin)
+    }
+
+    /// A zero that is not stable, and its member farthest outside.
+    fn bad(&self) -> Option<(&PbhMode, Complex64)> {
+        let unstable = |m: &&PbhMode| m.unobservable && self.position(m, self.margin) != ModePosition::Stable;
+        let mode = self.modes.iter().find(unstable)?;
+        let farther = |worst: Complex64, z: Complex64| {
+            if self.region.excess(z) > self.region.excess(worst) { z } else { worst }
+        };
+        Some((mode, self.members(mode).into_iter().fold(mode.value, farther)))
+    }
+
+    /// Whether a small change of the data could tip the verdict: a mode that is not stable is hardly seen, a zero is hardly
+    /// stable, or the output is hardly more than rounding.
     fn near(&self) -> bool {
-        self.modes.iter().any(|m| {
+        let hardly_seen = self.modes.iter().any(|m| {
             let ratio = m.distance / self.limit;
             ratio > 1.0 && ratio < self.gap && !self.region.contains(m.value, self.margin)
-        })
+        });
+        let unseen = self.modes.iter().filter(|m| m.unobservable);
+        let positions = unseen.map(|m| self.position(m, self.margin * self.gap));
+        let seen_by_a_hair = self.faint
+            && self.modes.iter().any(|m| !m.unobservable && !self.region.contains(m.value, self.margin));
+        hardly_seen || seen_by_a_hair || ModePosition::hang_on_the_boundary(positions)
     }
 }
 
@@ -136,7 +171,7 @@ fn stable_zeros(system: &DescriptorSystem, tolerance: &Tolerance) -> Result<bool
         return Ok(false);
     }
     let pair = general_reduction(&ask.at, tolerance)?;
-    Ok(Zeros::of(system.time, &pair, tolerance)?.bad().next().is_none())
+    Ok(Zeros::of(system.time, &pair, tolerance)?.bad().is_none())
 }
 
 /// The direction `(x, d)` of an invariant zero that belongs to a direction of `x1`; its largest entry is one.
