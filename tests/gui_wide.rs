@@ -154,7 +154,7 @@ fn misprints_stand_beside_what_they_concern_and_in_a_list() {
 #[test]
 fn the_list_is_that_of_the_chosen_method() {
     let mut harness = harness("proportional-integral", [1500.0, 3000.0]);
-    harness.get_by_label("Misprints of paper 004 (13)");
+    harness.get_by_label("Misprints of paper 004 (14)");
     click(&mut harness, "Input-decoupled");
     assert_eq!(harness.state().session().document().design.method, Method::InputDecoupled, "the tile");
     harness.get_by_label("Misprints of paper 001 (5)");
