@@ -5,6 +5,7 @@
 use descry::document::EntryMatrix;
 use descry::gui::App;
 use descry::observer::{Method, Order};
+use descry::paper::{errata, paper_examples};
 use descry::platform::SynchronousRunner;
 use descry::session::{Analysis, Command, Edit, FreeEdit, FreeReport, Session, Show, Tab};
 use egui_kittest::{Harness, kittest::Queryable as _};
@@ -154,10 +155,92 @@ fn misprints_stand_beside_what_they_concern_and_in_a_list() {
 #[test]
 fn the_list_is_that_of_the_chosen_method() {
     let mut harness = harness("proportional-integral", [1500.0, 3000.0]);
-    harness.get_by_label("Misprints of paper 004 (13)");
+    harness.get_by_label("Misprints of paper 004 (14)");
     click(&mut harness, "Input-decoupled");
     assert_eq!(harness.state().session().document().design.method, Method::InputDecoupled, "the tile");
     harness.get_by_label("Misprints of paper 001 (5)");
     click(&mut harness, "General");
     assert_eq!(harness.state().session().document().design.order, Order::General, "its second order");
+}
+
+/// The misprints that stand open beside what they concern.
+fn open_misprints(harness: &Harness<'_, App>, paper: &str) -> Vec<&'static str> {
+    let shown = |place: &&'static str| {
+        harness.query_all_by_label_contains(&format!("Misprint, {place}: ")).next().is_some()
+    };
+    errata(paper).map(|erratum| erratum.place).filter(shown).collect()
+}
+
+/// The misprints that stand beside what they concern, open or folded.
+fn misprints(harness: &mut Harness<'_, App>, paper: &str) -> Vec<&'static str> {
+    let mut found = open_misprints(harness, paper);
+    for fold in harness.query_all_by_label_contains("Misprints beside ") {
+        fold.click_accesskit();
+    }
+    settle(harness);
+    found.extend(open_misprints(harness, paper));
+    found
+}
+
+fn every_misprint_stands_beside_what_it_concerns(paper: &str) {
+    let key = paper_examples().find(|(of, _)| *of == paper).unwrap().1;
+    let mut harness = harness(key, [1500.0, 7000.0]);
+    let mut seen = Vec::new();
+    let document = harness.state().session().document();
+    let (method, figures) = (document.design.method, document.figures.clone());
+    for order in method.orders() {
+        harness.state_mut().command(Command::Edit(Edit::Order(*order)));
+        settle(&mut harness);
+        seen.extend(misprints(&mut harness, paper));
+    }
+    let of_figures =
+        |id: &str| errata(paper).any(|erratum| erratum.concerns.split("; ").any(|one| one == id));
+    for figure in figures.into_iter().filter(|figure| of_figures(&figure.id)) {
+        harness.state_mut().command(Command::Show(Show::Tab(Tab::Figures)));
+        harness.state_mut().command(Command::Show(Show::Figure(figure.id)));
+        settle(&mut harness);
+        seen.extend(misprints(&mut harness, paper));
+    }
+    for erratum in errata(paper) {
+        assert!(seen.contains(&erratum.place), "{} of paper {paper} stands beside nothing", erratum.place);
+    }
+}
+
+#[test]
+fn every_misprint_of_paper_000_stands_beside_what_it_concerns() {
+    every_misprint_stands_beside_what_it_concerns("000");
+}
+
+#[test]
+fn every_misprint_of_paper_001_stands_beside_what_it_concerns() {
+    every_misprint_stands_beside_what_it_concerns("001");
+}
+
+#[test]
+fn every_misprint_of_paper_002_stands_beside_what_it_concerns() {
+    every_misprint_stands_beside_what_it_concerns("002");
+}
+
+#[test]
+fn every_misprint_of_paper_003_stands_beside_what_it_concerns() {
+    every_misprint_stands_beside_what_it_concerns("003");
+}
+
+#[test]
+fn every_misprint_of_paper_004_stands_beside_what_it_concerns() {
+    every_misprint_stands_beside_what_it_concerns("004");
+}
+
+#[test]
+fn misprints_of_an_example_leave_with_its_plant_and_those_of_an_order_with_the_order() {
+    let mut harness = harness("proportional-integral", [1500.0, 7000.0]);
+    let reduced = misprints(&mut harness, "004");
+    assert!(reduced.contains(&"equation (19)") && !reduced.contains(&"Algorithm 1"), "{reduced:?}");
+    assert!(reduced.contains(&"section IV, check of (8)"), "the example's: {reduced:?}");
+    type_into(&mut harness, "A[3, 1]", "-2");
+    let edited = misprints(&mut harness, "004");
+    assert!(edited.contains(&"equation (19)"), "of the formulas, whatever the plant: {edited:?}");
+    assert!(!edited.iter().any(|place| place.starts_with("section IV")), "of the example: {edited:?}");
+    click(&mut harness, "Proportional");
+    assert!(misprints(&mut harness, "004").is_empty(), "the proportional observer is another paper's");
 }

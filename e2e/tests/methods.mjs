@@ -14,13 +14,14 @@ async function opened(open, name, method, options) {
 
 const wide = (open, options) => opened(open, /Input-decoupled observer/, 'input-decoupled', options);
 const network = (open, options) => opened(open, /a network, as a whole/, 'hierarchical', options);
-/** Waits until a plot with that title is on screen. */
-async function plotted(page, name) {
+/** Waits until a widget with that role and name is there, for example a plot with its title, and returns its place. */
+async function seen(page, name) {
   const end = Date.now() + 20_000;
   for (;;) {
     const widgets = await page.widgets();
-    if (widgets.some((widget) => name.test(widget))) return;
-    assert.ok(Date.now() < end, `no plot ${name} among ${widgets.join('; ')}`);
+    const at = widgets.findIndex((widget) => name.test(widget));
+    if (at >= 0) return at;
+    assert.ok(Date.now() < end, `no ${name} among ${widgets.join('; ')}`);
     await page.page.waitForTimeout(100);
   }
 }
@@ -37,6 +38,15 @@ export default async ({ step, open }) => {
     after.rms.forEach((value, k) => {
       assert.ok(Math.abs(value - before[k]) < 1e-6 * (1 + before[k]), `the error does not change: ${before} ${after.rms}`);
     });
+  });
+
+  await step('a misprint of the paper stands beside the matrix that it concerns', async () => {
+    const [page] = await wide(open);
+    const matrix = await seen(page, /: G( =|$)/);
+    const fold = await seen(page, /: Misprints beside G( =|$)/);
+    const text = await seen(page, /Misprint, section III, d_hat: printed "G = \[5\/3 4\/3\]".*\[0 16\/3\] with \+4\/3/);
+    const next = await seen(page, /: Q1( =|$)/);
+    assert.ok(matrix < fold && fold < text && text < next, `in this order: ${[matrix, fold, text, next]}`);
   });
 
   await step('its figures are one click away', async () => {
@@ -65,8 +75,8 @@ export default async ({ step, open }) => {
     const page = await open();
     await page.until(settled, 'the first example');
     await page.click('button', 'Trade-off');
-    await plotted(page, /note: What is gained/);
-    await plotted(page, /note: One against the other/);
+    await seen(page, /note: What is gained/);
+    await seen(page, /note: One against the other/);
     await page.click('button', 'Full');
     await page.until((state) => settled(state) && state.order === 'full' && state.verified, 'the full order');
   });

@@ -7,6 +7,7 @@ mod draw;
 mod duplicates;
 mod entry;
 mod error;
+mod example;
 mod export_csv;
 mod export_svg;
 mod figures;
@@ -29,6 +30,7 @@ mod write;
 
 pub use entry::{Entry, EntryMatrix};
 pub use error::DocumentError;
+pub use example::paper_of;
 pub use export_csv::{figure_to_csv, motion_to_csv, trajectory_to_csv};
 pub use export_svg::figure_to_svg;
 pub use import::{ImportError, PastedMatrix, matrix_from_text};

@@ -2,6 +2,7 @@
 
 use egui::{RichText, ScrollArea, Ui, vec2};
 
+use super::observer::errata;
 use super::plot::{Place, figure_ui, notes_ui, panel_ui, panels_ui, short};
 use super::pole_plane::{Poles, pole_plane_ui};
 use super::{Output, Widgets, compare, scenario, theme};
@@ -286,6 +287,7 @@ fn paper_figures(ui: &mut Ui, session: &Session, derived: &Derived, out: &mut Ou
         ui.colored_label(theme::faint(ui), "Choose a figure.");
         return;
     };
+    errata::beside_example(ui, session, &recipe.id, "the figure");
     match derived.figure(&recipe.id) {
         Some(Ok(figure)) => figure_ui(ui, figure, "paper"),
         Some(Err(why)) => {

@@ -4,15 +4,15 @@ use egui::{RichText, Sense, Stroke, Ui, vec2};
 
 use super::super::{Output, Widgets, formula, network, theme};
 use super::errata;
-use crate::document::Document;
 use crate::numerics::RankDecision;
 use crate::observer::{Condition, Evidence, Verdict, Witness, show as show_number};
+use crate::paper::Shown;
 use crate::session::Edit;
 
 /// Draws all conditions of an assessment.
 pub(super) fn show(
     ui: &mut Ui,
-    document: &Document,
+    shown: Shown,
     conditions: &[Condition],
     widgets: &mut Widgets,
     out: &mut Output,
@@ -29,12 +29,12 @@ pub(super) fn show(
         let fill = ui.visuals().faint_bg_color;
         egui::Frame::new().fill(fill).corner_radius(5.0).inner_margin(7.0).show(ui, |ui| {
             ui.set_min_width(ui.available_width());
-            one(ui, document, condition, widgets, out);
+            one(ui, shown, condition, widgets, out);
         });
     }
 }
 
-fn one(ui: &mut Ui, document: &Document, condition: &Condition, widgets: &mut Widgets, out: &mut Output) {
+fn one(ui: &mut Ui, shown: Shown, condition: &Condition, widgets: &mut Widgets, out: &mut Output) {
     let colour = theme::verdict(ui, condition.verdict);
     ui.horizontal_wrapped(|ui| {
         lamp(ui, condition.verdict);
@@ -60,8 +60,9 @@ fn one(ui: &mut Ui, document: &Document, condition: &Condition, widgets: &mut Wi
     }
     if widgets.open_condition.as_deref() == Some(condition.id.as_str()) || condition.verdict == Verdict::Fails
     {
-        why(ui, document, condition, out);
+        why(ui, condition, out);
     }
+    errata::beside(ui, shown, (&condition.id, None), &condition.id);
 }
 
 /// A dot whose shape says the same as its colour: full, ring or cross.
@@ -85,7 +86,7 @@ fn lamp(ui: &mut Ui, verdict: Verdict) {
     }
 }
 
-fn why(ui: &mut Ui, document: &Document, condition: &Condition, out: &mut Output) {
+fn why(ui: &mut Ui, condition: &Condition, out: &mut Output) {
     if let Some(witness) = &condition.witness {
         ui.label(RichText::new(unseen(witness)).color(theme::bad(ui)));
         let entries: Vec<String> = witness
@@ -115,8 +116,6 @@ fn why(ui: &mut Ui, document: &Document, condition: &Condition, out: &mut Output
     for evidence in &condition.evidence {
         evidence_row(ui, evidence);
     }
-    let paper = condition.id.split('-').next().unwrap_or_default();
-    errata::beside(ui, (paper, &condition.id), document);
     formula::remark(ui, &condition.source);
 }
 

@@ -1,15 +1,22 @@
-//! Misprints of the chosen method's paper: a list, and what is printed in the place of a matrix.
+//! Misprints of the chosen method's paper: a list, and each beside what it concerns.
 
 use egui::{CollapsingHeader, RichText, Ui};
 
 use super::super::{formula, theme};
-use crate::document::Document;
-use crate::observer::Method;
-use crate::paper::{Erratum, PrintedMatrix, errata};
+use crate::document::paper_of;
+use crate::paper::{Erratum, PrintedMatrix, Shown, errata};
+use crate::session::Session;
+
+/// What decides which misprints belong on the screen.
+pub(super) fn of(session: &Session) -> Shown {
+    let document = session.document();
+    let design = &document.design;
+    Shown { method: design.method, order: design.order, example: paper_of(&document.plant) }
+}
 
 /// Draws the list, folded at first.
-pub(super) fn show(ui: &mut Ui, method: Method) {
-    let paper = method.paper();
+pub(super) fn show(ui: &mut Ui, shown: Shown) {
+    let Some(paper) = shown.paper() else { return };
     let count = errata(paper).count();
     if count == 0 {
         return;
@@ -40,21 +47,39 @@ fn one(ui: &mut Ui, erratum: &Erratum) {
     formula::remark(ui, erratum.proof);
 }
 
-/// Draws the misprints that concern a condition or a matrix, beside it; those in the numbers of the paper's example only
-/// where the document is that example.
-pub(super) fn beside(ui: &mut Ui, (paper, concerns): (&str, &str), document: &Document) {
-    let belongs = |erratum: &&Erratum| {
-        erratum.concerns == concerns && (!erratum.of_example() || document.paper == paper)
+/// Draws the misprints that concern a condition, a matrix of a subsystem, the equation or the guarantee, beside it: a
+/// fold that is always visible, open where only the numbers of the paper's example are at stake.
+pub(super) fn beside(ui: &mut Ui, shown: Shown, (what, subsystem): (&str, Option<usize>), name: &str) {
+    fold(ui, &shown.beside(what, subsystem).collect::<Vec<_>>(), name, true);
+}
+
+/// Draws the misprints that concern a figure or the uncertainty of the paper's example, whichever design is chosen.
+pub(in crate::gui) fn beside_example(ui: &mut Ui, session: &Session, what: &str, name: &str) {
+    fold(ui, &of(session).beside_example(what).collect::<Vec<_>>(), name, false);
+}
+
+fn fold(ui: &mut Ui, found: &[&Erratum], name: &str, open: bool) {
+    let title = match found.len() {
+        0 => return,
+        1 => "Misprint in the paper".to_owned(),
+        count => format!("{count} misprints in the paper"),
     };
-    for erratum in errata(paper).filter(belongs) {
-        formula::remark(
-            ui,
-            &format!(
-                "Misprint, {}: printed \"{}\", correct \"{}\": {}",
-                erratum.place, erratum.printed, erratum.correct, erratum.proof
-            ),
-        );
-    }
+    let open = open && found.iter().all(|erratum| erratum.of_example());
+    let title = RichText::new(title).small().color(theme::near(ui));
+    let header = CollapsingHeader::new(title)
+        .id_salt(("beside", name))
+        .default_open(open)
+        .show(ui, |ui| {
+            for erratum in found {
+                let Erratum { place, printed, correct, proof, .. } = erratum;
+                formula::remark(
+                    ui,
+                    &format!("Misprint, {place}: printed \"{printed}\", correct \"{correct}\": {proof}"),
+                );
+            }
+        })
+        .header_response;
+    ui.ctx().accesskit_node_builder(header.id, |node| node.set_label(format!("Misprints beside {name}")));
 }
 
 /// Draws a matrix as it is printed; entries that should be others stand out.

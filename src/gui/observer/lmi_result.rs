@@ -7,14 +7,17 @@ use super::super::{
     plot::{short, short_up},
     theme,
 };
+use super::errata;
 use crate::observer::{LmiResult, show as show_number};
+use crate::paper::{GUARANTEE, Shown};
 
 /// Draws a card for each subsystem.
-pub(super) fn show(ui: &mut Ui, results: &[LmiResult], discrete: bool) {
+pub(super) fn show(ui: &mut Ui, shown: Shown, results: &[LmiResult], discrete: bool) {
     if results.is_empty() {
         return;
     }
     ui.label(RichText::new("Guarantee").strong());
+    errata::beside(ui, shown, (GUARANTEE, None), "the guarantee");
     for (k, result) in results.iter().enumerate() {
         let fill = ui.visuals().faint_bg_color;
         egui::Frame::new().fill(fill).corner_radius(5.0).inner_margin(7.0).show(ui, |ui| {

@@ -4,7 +4,7 @@ mod audit;
 mod badge;
 mod conditions;
 mod demands;
-mod errata;
+pub(super) mod errata;
 mod lmi_result;
 mod methods;
 mod poles;
@@ -17,6 +17,7 @@ use egui::{RichText, Ui};
 
 use super::{Output, Widgets, compare, network, theme};
 use crate::observer::{Assessment, Method};
+use crate::paper::Shown;
 use crate::session::{Derived, Session};
 
 /// Draws the place of the observer.
@@ -27,6 +28,7 @@ pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Wid
     methods::reasons(ui, derived);
     methods::orders(ui, session, out);
     badge::stale(ui, session, derived);
+    let shown = errata::of(session);
     let assessment = match derived.analysis().map(|analysis| &analysis.assessment) {
         Some(Ok(assessment)) => {
             badge::show(ui, session, assessment, out);
@@ -49,7 +51,7 @@ pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Wid
         audit::show(ui, session, derived, widgets, out);
         // last, since it comes and goes: nothing that a person types into may jump
         if let Some(Ok(design)) = assessment.map(|assessment| &assessment.outcome) {
-            lmi_result::show(ui, design.synthesis.lmi(), demands::is_discrete(session));
+            lmi_result::show(ui, shown, design.synthesis.lmi(), demands::is_discrete(session));
         }
     } else {
         if session.document().design.method == Method::Hierarchical {
@@ -61,19 +63,21 @@ pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Wid
     if let Some(assessment) = assessment {
         found(ui, session, assessment, widgets, out);
     }
-    errata::show(ui, session.document().design.method);
+    errata::show(ui, shown);
 }
 
-/// Draws the conditions and the design.
+/// Draws the conditions and the design; until the newest has arrived they are those of the choice before.
 fn found(ui: &mut Ui, session: &Session, assessment: &Assessment, widgets: &mut Widgets, out: &mut Output) {
+    let choice = &assessment.choice;
+    let shown = Shown { method: choice.method, order: choice.order, ..errata::of(session) };
     if !assessment.conditions.is_empty() {
         ui.separator();
         ui.label(RichText::new("Conditions").strong());
-        conditions::show(ui, session.document(), &assessment.conditions, widgets, out);
+        conditions::show(ui, shown, &assessment.conditions, widgets, out);
     }
     if let Ok(design) = &assessment.outcome {
         ui.separator();
         ui.label(RichText::new("Result").strong());
-        result::show(ui, session.document(), assessment.choice.method, design);
+        result::show(ui, session.document(), shown, design);
     }
 }

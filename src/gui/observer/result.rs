@@ -6,11 +6,11 @@ use super::super::{formula, theme};
 use super::errata;
 use crate::document::{Document, MatrixSyntax, PlantData, matrix_to_text};
 use crate::observer::{Design, Method, NamedMatrix};
-use crate::paper::printed;
+use crate::paper::{OBSERVER, Shown, printed};
 use crate::system::TimeDomain;
 
 /// Draws the gains, the checks and the notes of a design.
-pub(super) fn show(ui: &mut Ui, document: &Document, method: Method, design: &Design) {
+pub(super) fn show(ui: &mut Ui, document: &Document, shown: Shown, design: &Design) {
     let discrete =
         matches!(&document.plant, PlantData::Descriptor(data) if data.time == TimeDomain::Discrete);
     for note in &design.notes {
@@ -18,9 +18,10 @@ pub(super) fn show(ui: &mut Ui, document: &Document, method: Method, design: &De
     }
     egui::CollapsingHeader::new("Gains").default_open(true).show(ui, |ui| {
         for matrix in &design.matrices {
-            named_matrix(ui, document, method, matrix);
+            named_matrix(ui, document, shown, matrix);
         }
-        formula::remark(ui, equations(method, discrete));
+        formula::remark(ui, equations(shown.method, discrete));
+        errata::beside(ui, shown, (OBSERVER, None), "the observer");
     });
     egui::CollapsingHeader::new("Verification").default_open(false).show(ui, |ui| {
         for check in &design.verification.checks {
@@ -80,7 +81,7 @@ const SHOWN: usize = 12;
 /// Rows and columns of a larger one that are shown when a person opens it.
 const OPENED: usize = 40;
 
-fn named_matrix(ui: &mut Ui, document: &Document, method: Method, matrix: &NamedMatrix) {
+fn named_matrix(ui: &mut Ui, document: &Document, shown: Shown, matrix: &NamedMatrix) {
     let (rows, columns) = matrix.value.shape();
     let large = rows.max(columns) > SHOWN;
     ui.horizontal(|ui| {
@@ -97,20 +98,40 @@ fn named_matrix(ui: &mut Ui, document: &Document, method: Method, matrix: &Named
         });
     });
     if large {
-        egui::CollapsingHeader::new(format!("entries of {}", matrix.name))
-            .id_salt(("named-large", &matrix.name))
-            .default_open(false)
-            .show(ui, |ui| {
-                egui::ScrollArea::horizontal()
-                    .id_salt(("named", &matrix.name))
-                    .auto_shrink([false, true])
-                    .show(ui, |ui| entries(ui, matrix));
-            });
-        return;
+        folded_entries(ui, matrix);
+    } else {
+        shown_entries(ui, shown.method, matrix);
     }
-    // a local observer's matrix carries the name of its subsystem: `N (first)`
-    let letter = matrix.name.split(" (").next().unwrap_or_default();
-    let known = printed(method.paper(), letter, &matrix.value);
+    let place = (letter(matrix), subsystem(document, matrix));
+    errata::beside(ui, shown, place, &matrix.name);
+}
+
+/// A local observer's matrix carries the name of its subsystem, `N (first)`: its letter.
+fn letter(matrix: &NamedMatrix) -> &str {
+    matrix.name.split(" (").next().unwrap_or_default()
+}
+
+/// The number of the subsystem whose name a matrix carries, from one.
+fn subsystem(document: &Document, matrix: &NamedMatrix) -> Option<usize> {
+    let PlantData::Descriptor(data) = &document.plant else { return None };
+    let (_, name) = matrix.name.strip_suffix(')')?.split_once(" (")?;
+    data.partition.iter().position(|subsystem| subsystem.name == name).map(|k| k + 1)
+}
+
+fn folded_entries(ui: &mut Ui, matrix: &NamedMatrix) {
+    egui::CollapsingHeader::new(format!("entries of {}", matrix.name))
+        .id_salt(("named-large", &matrix.name))
+        .default_open(false)
+        .show(ui, |ui| {
+            egui::ScrollArea::horizontal()
+                .id_salt(("named", &matrix.name))
+                .auto_shrink([false, true])
+                .show(ui, |ui| entries(ui, matrix));
+        });
+}
+
+fn shown_entries(ui: &mut Ui, method: Method, matrix: &NamedMatrix) {
+    let known = printed(method.paper(), letter(matrix), &matrix.value);
     egui::ScrollArea::horizontal().id_salt(("named", &matrix.name)).auto_shrink([false, true]).show(
         ui,
         |ui| match known {
@@ -128,7 +149,6 @@ fn named_matrix(ui: &mut Ui, document: &Document, method: Method, matrix: &Named
             }
         },
     );
-    errata::beside(ui, (method.paper(), letter), document);
 }
 
 /// The entries of a matrix, of a very large one the first.

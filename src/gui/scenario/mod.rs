@@ -7,9 +7,11 @@ mod uncertainty;
 
 use egui::{CollapsingHeader, Response, Ui};
 
+use super::observer::errata;
 use super::{Output, Widgets, theme};
 use crate::document::limits::MAX_SIDE;
 use crate::document::{self, Document, Matrix, PlantData, ScenarioData};
+use crate::paper::UNCERTAINTY;
 use crate::session::{Derived, Session, SignalList};
 use crate::system::TimeDomain;
 
@@ -37,6 +39,7 @@ pub fn show(ui: &mut Ui, session: &Session, derived: &Derived, widgets: &mut Wid
                     uncertainty::grid(ui, session, widgets, (&data.amplitude, false), out);
                     uncertainty::grid(ui, session, widgets, (&data.frequency, true), out);
                 });
+            errata::beside_example(ui, session, UNCERTAINTY, "the uncertainty");
         }
     });
 }

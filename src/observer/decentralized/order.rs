@@ -101,7 +101,7 @@ fn known(decoupled: &Decoupled) -> DMatrix<f64> {
 ///
 /// # Source
 /// Paper 000, section IV B: `R_i` of full row rank, `rank Sigma_i = n_i`.
-// ERRATUM(000, before eq. 23): "rank Sigma_i = n_ii" is n_i; the bracket of Sigma_i = [R_i; Phi_i A_ii; H_i] is lost.
+// ERRATUM(000, before eq. 23): "rank Sigma_i = n_ii" is n_i.
 pub fn check(
     subsystem: &str,
     R: &DMatrix<f64>,

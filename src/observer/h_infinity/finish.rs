@@ -145,7 +145,7 @@ fn realize(plant: &Plant, matrices: &Matrices) -> (LinearObserver, Injection, Cl
         R: DMatrix::zeros(0, p),
         S: DMatrix::zeros(0, k),
     };
-    // ERRATUM(002, eq. 5): printed f(t, F_L, x_hat, u); f depends on F_L x_hat
+    // ERRATUM(002, eq. 5): the copied text has f(t, F_L, x_hat, u); f depends on F_L x_hat
     let injection = Injection { state: T * &plant.G, estimate: -(&Q_Phi * &plant.G) };
     (observer, injection, Claim { T: T.clone(), G: Q_Phi })
 }

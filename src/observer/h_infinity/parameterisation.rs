@@ -118,7 +118,7 @@ impl Parameterisation {
         let (Theta_pinv, of_Theta) = clean_inverse(&plant.Theta(), tolerance)?;
         let T_K = inexact_product(&[R, &Theta_pinv], of_Theta);
         let T_tilde = T_K.columns(0, e).into_owned();
-        // ERRATUM(002, definition of Omega): printed with T; (47) and the printed P, Q, F need T_tilde
+        // ERRATUM(002, definition of Omega): the copied text has T, which Phi E = 0 makes the same; T is not known yet
         let Omega = stack(&[&product(&[&T_tilde, &system.E]), &plant.known()]);
         let (Omega_pinv, of_Omega) = clean_inverse(&Omega, tolerance)?;
         let noise = of_Theta + of_Omega;
@@ -135,7 +135,7 @@ impl Parameterisation {
         let sum = |terms: [DMatrix<f64>; 2]| {
             tidy(&(&terms[0] + &terms[1]), noise * (terms[0].norm() + terms[1].norm()))
         };
-        // ERRATUM(002, Delta_TD): printed -Delta_Psi Lambda Phi D; the Lambda belongs to the next symbol
+        // ERRATUM(002, Delta_TD): the copied text has -Delta_Psi Lambda Phi D; the Lambda belongs to the next symbol
         let Lambda_TG = sum([product(&[&T_tilde, &plant.acting()]), -product(&[&Lambda_Psi, &Phi_G])]);
         let L_TG = -product(&[&L_Psi, &Phi_G]);
         let direct = sum([product(&[&Lambda_J, &system.F]), -product(&[&T_tilde, &system.D])]);
@@ -197,7 +197,7 @@ impl Parameterisation {
     ///
     /// # Source
     /// Paper 002, (47), (48); `T = T_tilde - Psi Phi`, `H = T B`.
-    // ERRATUM(002, before 38): "T = T + Psi Phi" is T_tilde = T + Psi Phi
+    // ERRATUM(002, before 38): "T = T + Psi Phi" of the copied text is T_tilde = T + Psi Phi
     pub fn recover(&self, plant: &Plant, Z: &DMatrix<f64>) -> Matrices {
         let Psi = &self.Lambda_Psi - Z * &self.L_Psi;
         let T = &self.T_tilde - &Psi * &plant.Phi;

@@ -10,7 +10,8 @@ pub(super) const ERRATA: [Erratum; 12] = [
         concerns: "003-P1-local",
         printed: "(alpha_I - h_i c_L) is Hurwitz",
         correct: "(a_I - h_i c_L) is Hurwitz",
-        proof: "there is no alpha_I; the error (9) has the blocks a_I - h_i c_L on its diagonal",
+        proof: "there is no alpha_I; in the example h_4 c_L is 5 x 5 as a_I is, and alpha_z is 6 x 6; the \
+                error (9) has the blocks a_I - h_i c_L on its diagonal",
     },
     Erratum {
         paper: "003",
@@ -26,12 +27,13 @@ pub(super) const ERRATA: [Erratum; 12] = [
         concerns: "gamma_z",
         printed: "output matrices [Psi kron c_G; e_I' kron c_L] and [Psi N kron c_G M; I kron c_L]",
         correct: "diag(Psi kron c_G, e_I' kron c_L) and diag(Psi N kron c_G M, I kron c_L)",
-        proof: "in the example the printed matrix of (14) has 20 columns, and [x_G; x_L] has 40 entries: zeros are lost",
+        proof: "in the example the printed matrix of (14) has 20 columns, and [x_G; x_L] has 40 entries: \
+                zeros are lost",
     },
     Erratum {
         paper: "003",
         place: "Theorem 1, last line of the proof",
-        concerns: "",
+        concerns: "observer",
         printed: "X(0) := L [x_G(0)', x_L(0)']'",
         correct: "X(0) := L' [x_G(0)', x_L(0)']'",
         proof: "in the example L is 40 x 11, and X has 11 entries",
@@ -42,8 +44,9 @@ pub(super) const ERRATA: [Erratum; 12] = [
         concerns: "003-T2-iii",
         printed: "|Theta_pi| > 2",
         correct: "|Theta_pi| >= 2",
-        proof: "Gamma = diag(1, 2), a_I = diag(-1, 1/2), b_I = [1; 0], c_I = c_G = [1 1], Psi = [1 1]: (i) and (ii) hold, \
-                |Theta_pi| = 2 at pi = 0.5 and is never larger, but this mode of (alpha_z, gamma_z) is not observable",
+        proof: "Gamma = diag(1, 2), a_I = diag(-1, 1/2), b_I = [1; 0], c_I = c_G = [1 1], Psi = [1 1]: (i) \
+                and (ii) hold, |Theta_pi| = 2 at pi = 0.5 and is never larger, but this mode of (alpha_z, \
+                gamma_z) is not observable",
     },
     Erratum {
         paper: "003",
@@ -51,7 +54,9 @@ pub(super) const ERRATA: [Erratum; 12] = [
         concerns: "003-T2-ii",
         printed: "(a_z, c_z) is observable by the definition in (13)",
         correct: "because ker O_n(a_I, b_I c_I) contains ker O_n(a_I, c_I)",
-        proof: "what c_I does not show, b_I c_I does not show either, and the columns of M leave just that out",
+        proof: "what c_I does not show, b_I c_I does not show either, and the columns of M leave just that \
+                out: in the example each of the two matrices has rank 2, both together have rank 2, and so \
+                has O_2(a_z, c_z)",
     },
     Erratum {
         paper: "003",
@@ -88,18 +93,19 @@ pub(super) const ERRATA: [Erratum; 12] = [
     Erratum {
         paper: "003",
         place: "section III, rank of the observability matrix",
-        concerns: "",
-        printed: "we cannot determine whether the state on the fourth subsystem is estimated with usual centralized observers",
+        concerns: "003-P1-global",
+        printed: "we cannot determine whether the state on the fourth subsystem is estimated with usual \
+                centralized observers",
         correct: "it is: x_4 lies in the part of the state that (A, C) shows, and (A, C) is detectable",
-        proof: "of 20 modes 11 are observable and their space holds x_4; the other 9, -3.8 three times and -1.8 +- 2i three \
-                times, decay",
+        proof: "of 20 modes 11 are observable and their space holds x_4; the other 9, -3.8 three times and \
+                -1.8 +- 2i three times, decay",
     },
     Erratum {
         paper: "003",
         place: "Fig. 6, caption",
-        concerns: "",
+        concerns: "fig6",
         printed: "states x_1 and x_hat_4",
         correct: "states x and x_hat_4",
-        proof: "the text describes solid lines for x in R^20",
+        proof: "x_1 has 5 entries; the text describes solid lines for x in R^20",
     },
 ];

@@ -6,8 +6,10 @@ mod hierarchical;
 mod input_decoupled;
 mod printed;
 mod proportional_integral;
+mod shown;
 
 pub use printed::{PrintedMatrix, printed};
+pub use shown::{GUARANTEE, OBSERVER, Shown, UNCERTAINTY};
 
 /// A misprint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,30 +18,38 @@ pub struct Erratum {
     pub paper: &'static str,
     /// Where it is.
     pub place: &'static str,
-    /// Identifier of the condition or name of the matrix that it concerns; empty for the text.
+    /// What it concerns on screen, see [`Shown`]: the identifier of a condition, the letter of a matrix, that of one
+    /// subsystem (`Q of subsystem 1`), the identifier of a figure, `observer`, `guarantee` or `uncertainty`; several
+    /// stand between semicolons.
     pub concerns: &'static str,
     /// As printed.
     pub printed: &'static str,
     /// As it should read.
     pub correct: &'static str,
-    /// Why: the number or the argument.
+    /// Why: the argument and the number, which `tests/errata` computes.
     pub proof: &'static str,
 }
 
-/// The sections of the papers that hold their examples.
-const EXAMPLES: [(&str, &str); 5] = [
-    ("000", "section V"),
-    ("001", "section III"),
-    ("002", "section 4"),
-    ("003", "section III"),
-    ("004", "section IV"),
+/// The papers' examples: the section that holds them, and the key of the document.
+const EXAMPLES: [(&str, &str, &str); 5] = [
+    ("000", "section V", "decentralized"),
+    ("001", "section III", "input-decoupled"),
+    ("002", "section 4", "h-infinity-lipschitz"),
+    ("003", "section III", "hierarchical"),
+    ("004", "section IV", "proportional-integral"),
 ];
+
+/// The papers and the keys of the documents that hold their examples.
+pub fn paper_examples() -> impl Iterator<Item = (&'static str, &'static str)> {
+    EXAMPLES.into_iter().map(|(paper, _, key)| (paper, key))
+}
 
 impl Erratum {
     /// Whether it concerns the numbers of the paper's example, and nothing beside them.
     pub fn of_example(&self) -> bool {
-        let section = EXAMPLES.iter().find(|(paper, _)| *paper == self.paper);
-        section.is_some_and(|(_, section)| self.place.split(',').next() == Some(section))
+        let first = self.place.split(',').next();
+        let section = EXAMPLES.iter().find(|(paper, ..)| *paper == self.paper);
+        section.is_some_and(|(_, section, _)| first == Some(section)) || self.place.starts_with("Fig")
     }
 }
 
@@ -71,11 +81,12 @@ mod tests {
         for erratum in ALL.iter().copied().flatten() {
             assert_ne!(erratum.printed, erratum.correct, "{}: nothing is corrected", erratum.place);
             assert!(!erratum.proof.is_empty(), "{}: no proof", erratum.place);
+            assert!(!erratum.concerns.is_empty(), "{}: it concerns nothing on screen", erratum.place);
         }
         let of_examples = |paper| errata(paper).filter(|erratum| erratum.of_example()).count();
         assert_eq!(
-            ["001", "002", "004"].map(of_examples),
-            [3, 1, 3],
+            ["000", "001", "002", "003", "004"].map(of_examples),
+            [8, 3, 1, 5, 4],
             "the sections of the examples are known"
         );
         for (paper, own) in papers_with_errata().into_iter().zip(ALL) {
