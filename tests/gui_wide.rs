@@ -244,3 +244,11 @@ fn misprints_of_an_example_leave_with_its_plant_and_those_of_an_order_with_the_o
     click(&mut harness, "Proportional");
     assert!(misprints(&mut harness, "004").is_empty(), "the proportional observer is another paper's");
 }
+
+#[test]
+fn the_ring_is_no_example_of_the_paper_whose_method_it_uses() {
+    let mut harness = harness("network-ring", [1500.0, 3000.0]);
+    let found = misprints(&mut harness, "003");
+    assert!(found.contains(&"(12)"), "of the formulas: {found:?}");
+    assert!(!found.iter().any(|place| place.starts_with("section III")), "of the example: {found:?}");
+}
