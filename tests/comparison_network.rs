@@ -78,13 +78,19 @@ fn of_a_large_network_errors_are_those_of_the_simulation_and_norms_bound_them() 
 /// Where every state of a network is never simulated, the noise norm comes from a rotated error system of small order.
 #[test]
 fn the_noise_norm_of_a_network_is_the_same_with_and_without_expanding_it() {
-    for (plugged, local) in
-        [("", "[1,2,3,4,5,6]"), (r#","plugged":[3,5]"#, "[3,5]"), (r#","plugged":[]"#, "[1]")]
-    {
+    let (coupled, loose) = ("[1,2,1],[2,1,1],[3,1,2],[5,2,0.5],[6,1,1]", "");
+    let (seen, unseen) = ("[1,0,0,0,0,0],[1,-1,0,0,0,0]", "[0,0,0,0,0,0]");
+    for (plugged, local, entries, psi) in [
+        ("", "[1,2,3,4,5,6]", coupled, seen),
+        (r#","plugged":[3,5]"#, "[3,5]", coupled, seen),
+        (r#","plugged":[]"#, "[1]", coupled, seen),
+        // nothing is coupled: there is no whole, and all local observers are alike
+        ("", "[1,2,3,4,5,6]", loose, unseen),
+    ] {
         let text = format!(
             r#"{{"descry":1,"system":{{"network":{{"a":[[-1,1],[0,-2]],"b":[[0],[1]],"c":[[1,0]],
-            "Gamma":{{"rows":6,"columns":6,"entries":[[1,2,1],[2,1,1],[3,1,2],[5,2,0.5],[6,1,1]]}},
-            "Psi":[[1,0,0,0,0,0],[1,-1,0,0,0,0]],"c_G":[[1,0]],"c_L":[[1,0]],"local":{local}}}}},
+            "Gamma":{{"rows":6,"columns":6,"entries":[{entries}]}},
+            "Psi":[{psi}],"c_G":[[1,0]],"c_L":[[1,0]],"local":{local}}}}},
             "design":{{"method":"hierarchical","order":"full","poles":[-3,-4,-5,-6],"local poles":[-7,-8]{plugged}}}}}"#
         );
         let document = read_document(&text).unwrap();
