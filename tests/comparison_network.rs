@@ -2,6 +2,7 @@
 #![cfg(not(target_arch = "wasm32"))]
 #![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail by panicking")]
 
+use descry::document::comparison::{Group, comparison_table};
 use descry::document::{Document, Subject, read_document};
 use descry::numerics::Watch;
 use descry::observer::{ErrorGain, assess, assess_network, network_error_system};
@@ -67,6 +68,11 @@ fn of_a_large_network_errors_are_those_of_the_simulation_and_norms_bound_them() 
         let norm = row.gains.w_to_e.value().unwrap();
         assert!(norm > 0.0 && norm.is_finite(), "{:?}", row.gains);
     }
+    let table = comparison_table(&found.comparison);
+    let each: Vec<&str> =
+        table.lines.iter().filter(|line| line.group == Group::Each).map(|line| line.label.as_str()).collect();
+    let expected = ["rms e1", "rms e2", "rms e3", "rms e4", "rms e13", "rms e14"];
+    assert_eq!(each, expected, "a line for each state that somebody estimates");
     let states = figures.states.unwrap();
     let titles: Vec<&str> = states.panels.iter().map(|panel| panel.title.as_str()).collect();
     assert_eq!(titles[..2], ["z1 of the whole", "z2 of the whole"], "the whole comes first");
