@@ -583,6 +583,20 @@ fn a_command() -> impl Strategy<Value = Command> {
     ]
 }
 
+#[test]
+fn a_border_that_cannot_move_says_why_where_equations_are_few() {
+    // the second subsystem has no equation left to give
+    let text = r#"{"descry":1,"system":{"E":[[1,0,0,0]],"A":[[1,0,0,0]],"C":[[0,1,0,1]],"partition":[
+        {"states":1,"equations":1,"outputs":0},{"states":3,"equations":0,"outputs":1}]},"design":{"method":"decentralized"}}"#;
+    let mut session = Session::new(read_document(text).unwrap());
+    let before = session.document().clone();
+    let share = descry::session::Share::States;
+    edit(&mut session, Edit::Partition(PartitionEdit::Move { border: 0, share, to: 3, done: true }));
+    assert_eq!(session.document(), &before, "the output would lie in both");
+    let message = session.message().unwrap();
+    assert!(message.error && message.text.contains("cannot lie there"), "{message:?}");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
 

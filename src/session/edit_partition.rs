@@ -212,7 +212,8 @@ fn moved(
         });
     }
     if share == Share::States && from[1] == from[0] {
-        wish[1] = to;
+        // as far as there are equations
+        wish[1] = to.clamp(low[1], high[1]);
     }
     let mut all = borders.0.clone();
     all[border] = allowed(system, wish, share, (low, high)).unwrap_or(wish);
