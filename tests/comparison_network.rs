@@ -2,6 +2,7 @@
 #![cfg(not(target_arch = "wasm32"))]
 #![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail by panicking")]
 
+use descry::document::comparison::{Group, comparison_table};
 use descry::document::{Document, Subject, read_document};
 use descry::numerics::Watch;
 use descry::observer::{ErrorGain, assess, assess_network, network_error_system};
@@ -67,6 +68,11 @@ fn of_a_large_network_errors_are_those_of_the_simulation_and_norms_bound_them() 
         let norm = row.gains.w_to_e.value().unwrap();
         assert!(norm > 0.0 && norm.is_finite(), "{:?}", row.gains);
     }
+    let table = comparison_table(&found.comparison);
+    let each: Vec<&str> =
+        table.lines.iter().filter(|line| line.group == Group::Each).map(|line| line.label.as_str()).collect();
+    let expected = ["rms e1", "rms e2", "rms e3", "rms e4", "rms e13", "rms e14"];
+    assert_eq!(each, expected, "a line for each state that somebody estimates");
     let states = figures.states.unwrap();
     let titles: Vec<&str> = states.panels.iter().map(|panel| panel.title.as_str()).collect();
     assert_eq!(titles[..2], ["z1 of the whole", "z2 of the whole"], "the whole comes first");
@@ -78,13 +84,19 @@ fn of_a_large_network_errors_are_those_of_the_simulation_and_norms_bound_them() 
 /// Where every state of a network is never simulated, the noise norm comes from a rotated error system of small order.
 #[test]
 fn the_noise_norm_of_a_network_is_the_same_with_and_without_expanding_it() {
-    for (plugged, local) in
-        [("", "[1,2,3,4,5,6]"), (r#","plugged":[3,5]"#, "[3,5]"), (r#","plugged":[]"#, "[1]")]
-    {
+    let (coupled, loose) = ("[1,2,1],[2,1,1],[3,1,2],[5,2,0.5],[6,1,1]", "");
+    let (seen, unseen) = ("[1,0,0,0,0,0],[1,-1,0,0,0,0]", "[0,0,0,0,0,0]");
+    for (plugged, local, entries, psi) in [
+        ("", "[1,2,3,4,5,6]", coupled, seen),
+        (r#","plugged":[3,5]"#, "[3,5]", coupled, seen),
+        (r#","plugged":[]"#, "[1]", coupled, seen),
+        // nothing is coupled: there is no whole, and all local observers are alike
+        ("", "[1,2,3,4,5,6]", loose, unseen),
+    ] {
         let text = format!(
             r#"{{"descry":1,"system":{{"network":{{"a":[[-1,1],[0,-2]],"b":[[0],[1]],"c":[[1,0]],
-            "Gamma":{{"rows":6,"columns":6,"entries":[[1,2,1],[2,1,1],[3,1,2],[5,2,0.5],[6,1,1]]}},
-            "Psi":[[1,0,0,0,0,0],[1,-1,0,0,0,0]],"c_G":[[1,0]],"c_L":[[1,0]],"local":{local}}}}},
+            "Gamma":{{"rows":6,"columns":6,"entries":[{entries}]}},
+            "Psi":[{psi}],"c_G":[[1,0]],"c_L":[[1,0]],"local":{local}}}}},
             "design":{{"method":"hierarchical","order":"full","poles":[-3,-4,-5,-6],"local poles":[-7,-8]{plugged}}}}}"#
         );
         let document = read_document(&text).unwrap();

@@ -583,6 +583,32 @@ fn a_command() -> impl Strategy<Value = Command> {
     ]
 }
 
+#[test]
+fn a_subsystem_that_is_not_there_is_not_divided() {
+    let text = r#"{"descry":1,"system":{"E":[[0,0,0,0],[0,0,0,0]],"A":[[1,0,0,0],[0,0,0,1]],"C":[[0,0,0,0]],"partition":[
+        {"states":2,"equations":2,"outputs":1},{"states":2,"equations":0,"outputs":0}]},"design":{"method":"decentralized"}}"#;
+    let mut session = Session::new(read_document(text).unwrap());
+    let before = session.document().clone();
+    edit(&mut session, Edit::Partition(PartitionEdit::Split { subsystem: 2 }));
+    assert_eq!(session.document(), &before, "two subsystems, and no third one");
+    let message = session.message().unwrap();
+    assert!(message.error && message.text == "there is no subsystem 3", "{message:?}");
+}
+
+#[test]
+fn a_border_that_cannot_move_says_why_where_equations_are_few() {
+    // the second subsystem has no equation left to give
+    let text = r#"{"descry":1,"system":{"E":[[1,0,0,0]],"A":[[1,0,0,0]],"C":[[0,1,0,1]],"partition":[
+        {"states":1,"equations":1,"outputs":0},{"states":3,"equations":0,"outputs":1}]},"design":{"method":"decentralized"}}"#;
+    let mut session = Session::new(read_document(text).unwrap());
+    let before = session.document().clone();
+    let share = descry::session::Share::States;
+    edit(&mut session, Edit::Partition(PartitionEdit::Move { border: 0, share, to: 3, done: true }));
+    assert_eq!(session.document(), &before, "the output would lie in both");
+    let message = session.message().unwrap();
+    assert!(message.error && message.text.contains("cannot lie there"), "{message:?}");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
 

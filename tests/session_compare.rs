@@ -106,6 +106,9 @@ fn a_name_is_typed_and_one_that_cannot_be_stays_as_a_draft() {
     rename(&mut session, &"x".repeat(10_000));
     assert_eq!(names(&session)[1].len(), 48, "bounded");
     assert!(session.draft(&Field::KeptName(1)).is_none(), "understood");
+    rename(&mut session, &format!("{} tail", "x".repeat(47)));
+    assert_eq!(names(&session)[1], "x".repeat(47), "no space is left where it is cut");
+    assert_eq!(&read_document(&session.document_text()).unwrap(), session.document(), "it reads back");
     compare(&mut session, CompareEdit::Rename { kept: 99, name: "nobody".to_owned() });
     assert_eq!(names(&session).len(), 4, "no such design, no change");
 }

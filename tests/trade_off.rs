@@ -75,7 +75,8 @@ fn more_decay_costs_attenuation_until_nothing_is_feasible() {
     assert_eq!(found.sweep, Sweep::Decay, "the decay is demanded");
     assert!(found.points.len() >= 4, "several decays are feasible: {}", found.points.len());
     grows(&found.points, "guaranteed gamma", |point| point.design.guaranteed.unwrap());
-    let [note] = found.notes.as_slice() else { panic!("one note: {:?}", found.notes) };
+    let [linear, note] = found.notes.as_slice() else { panic!("two notes: {:?}", found.notes) };
+    assert!(linear.contains("norms are those of the error of the linear part"), "{linear}");
     assert!(note.contains("there is no design"), "the sweep says why it ends: {note}");
     let last = found.points.last().unwrap().at;
     let lmi = LmiChoice { decay: Some(last), ..choice.lmi.clone() };

@@ -114,8 +114,7 @@ impl Method {
                  term to design for the linear part"
             }
             Self::ProportionalIntegral if system.n_unknown_inputs() == 0 => {
-                "the proportional-integral observer estimates an unknown input, but D has no columns: add one, or choose \
-                 the proportional observer"
+                proportional_integral::NO_UNKNOWN_INPUT
             }
             Self::HInfinity if system.time == TimeDomain::Discrete => {
                 "the H-infinity observer is for differential equations: this system is in discrete time"

@@ -87,7 +87,7 @@ fn choose(document: &mut Document, kept: usize, history: &History) {
 }
 
 fn rename(document: &mut Document, index: usize, text: &str) -> Edited {
-    let name: String = text.trim().chars().take(MAX_NAME).collect();
+    let name = clipped(text, 0);
     let draft = |error: &str| {
         Edited::Draft(Field::KeptName(index), Draft { text: text.to_owned(), error: error.to_owned() })
     };
@@ -148,10 +148,15 @@ fn unique(document: &Document, name: &str, except: Option<usize>) -> String {
     let others = document.kept.iter().enumerate().filter(|(k, _)| Some(*k) != except);
     let taken: Vec<&str> = others.map(|(_, kept)| kept.name.as_str()).chain([CHOSEN]).collect();
     // a number finds room at the end
-    let clipped = |room: usize| name.chars().take(MAX_NAME - room).collect::<String>();
-    let numbered = (2..).map(|k| format!("{} ({k})", clipped(5)));
-    std::iter::once(clipped(0))
+    let numbered = (2..).map(|k| format!("{} ({k})", clipped(name, 5)));
+    std::iter::once(clipped(name, 0))
         .chain(numbered)
         .find(|candidate| !taken.contains(&candidate.as_str()))
-        .unwrap_or_else(|| clipped(0))
+        .unwrap_or_else(|| clipped(name, 0))
+}
+
+/// A name without spaces around it that leaves room for some characters more.
+fn clipped(name: &str, room: usize) -> String {
+    let short: String = name.trim().chars().take(MAX_NAME - room).collect();
+    short.trim_end().to_owned()
 }

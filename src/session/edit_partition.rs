@@ -158,6 +158,9 @@ fn split(system: &DescriptorSystem, borders: &Borders, subsystem: usize) -> Resu
     if borders.0.len() + 2 > MAX_SUBSYSTEMS {
         return Err(format!("at most {MAX_SUBSYSTEMS} subsystems are possible"));
     }
+    if subsystem > borders.0.len() {
+        return Err(format!("there is no subsystem {}", subsystem + 1));
+    }
     let (low, high) = borders.around(subsystem, system);
     let middle = |k: usize| usize::midpoint(low[k], high[k]);
     if high[0] < low[0] + 2 {
@@ -212,7 +215,8 @@ fn moved(
         });
     }
     if share == Share::States && from[1] == from[0] {
-        wish[1] = to;
+        // as far as there are equations
+        wish[1] = to.clamp(low[1], high[1]);
     }
     let mut all = borders.0.clone();
     all[border] = allowed(system, wish, share, (low, high)).unwrap_or(wish);

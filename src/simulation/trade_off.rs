@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
-use super::comparison::{ComparedDesign, judged};
+use super::comparison::{ComparedDesign, LINEAR_PART, judged};
 use crate::numerics::{Complex64, Tolerance, Watch, complex_svd};
 use crate::observer::{DesignChoice, DesignError, ErrorStateSpace, LmiChoice, assess_knowing, conditions};
 use crate::system::{Model, TimeDomain};
@@ -37,7 +37,7 @@ pub struct TradeOff {
     pub chosen: Option<f64>,
     /// The designs that exist.
     pub points: Vec<TradeOffPoint>,
-    /// Why the sweep ends where it does, or has gaps.
+    /// What the norms leave out, and why the sweep ends where it does, or has gaps.
     pub notes: Vec<String>,
 }
 
@@ -65,7 +65,8 @@ pub fn trade_off(
     watch: &Watch,
 ) -> Option<Result<TradeOff, String>> {
     let (sweep, chosen, values) = sweep(model, choice);
-    let mut found = TradeOff { sweep, chosen, points: Vec::new(), notes: Vec::new() };
+    let notes = model.lipschitz.iter().map(|_| LINEAR_PART.to_owned()).collect();
+    let mut found = TradeOff { sweep, chosen, points: Vec::new(), notes };
     let mut last = None;
     // a factor moves poles, on which no condition depends; a decay may decide a condition
     let asked = match sweep {

@@ -236,10 +236,12 @@ fn scenario_lines(rows: &[ComparisonRow]) -> Vec<TableLine> {
     lines
 }
 
-/// One line for each state and unknown input.
+/// One line for each state that some design estimates, and for each unknown input.
 fn each_lines(rows: &[ComparisonRow]) -> Vec<TableLine> {
     let errors = || rows.iter().filter_map(|row| row.outcome.as_ref().ok()?.scenario.as_ref().ok());
-    let states = errors().map(|errors| errors.states.len()).max().unwrap_or(0).min(MOST_EACH);
+    let most = errors().map(|errors| errors.states.len()).max().unwrap_or(0);
+    let estimated = |i: &usize| errors().any(|errors| errors.states.get(*i).is_some_and(Option::is_some));
+    let states = (0..most).filter(estimated).take(MOST_EACH);
     let unknown = errors().map(|errors| errors.unknown.len()).max().unwrap_or(0).min(MOST_EACH);
     let meaning = "Root mean square over the second half of the horizon";
     let state = |i: usize| {
@@ -257,7 +259,7 @@ fn each_lines(rows: &[ComparisonRow]) -> Vec<TableLine> {
         let label = format!("rms e_d{}", i + 1);
         line((&label, meaning, Group::Each), rows, Better::Smaller, |d| simulated(d, cell))
     };
-    (0..states).map(state).chain((0..unknown).map(input)).collect()
+    states.map(state).chain((0..unknown).map(input)).collect()
 }
 
 fn simulated(design: &ComparedDesign, cell: impl Fn(&ScenarioErrors) -> TableCell) -> TableCell {

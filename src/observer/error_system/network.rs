@@ -20,7 +20,8 @@ const LARGEST: usize = 120;
 ///
 /// The rows `(Gamma N)_i` of all subsystems with one gain `h` are `Q R` with orthonormal columns of `Q`, at most `nu` of
 /// them. Rotating errors and noises of these subsystems by `[Q, Q_perp]` changes no norm: `R` takes the place of `Gamma N`,
-/// and all the others are copies of `e' = (a - h c_L) e + h w`, of which one is enough.
+/// and all the others are copies of `e' = (a - h c_L) e + h w`. What passes through these passes through a row of `R` as
+/// well, so that none of them is needed unless nothing is coupled and `R` has no row.
 ///
 /// # Shapes
 /// Rows of `c`: the rotated errors of the subsystems with local observers, then the states that the whole determines. They
@@ -80,13 +81,11 @@ pub fn network_error_system(
     })
 }
 
-/// `R` of the rows of some subsystems, with a row of zeros for those that `Q` leaves.
+/// `R` of the rows of some subsystems; a row of zeros where nothing is coupled.
 fn rotated(Gamma_N: &DMatrix<f64>, users: &[usize]) -> DMatrix<f64> {
-    let rows = Gamma_N.select_rows(users);
-    let R = rows.qr().r();
-    let left = usize::from(users.len() > R.nrows());
-    let count = R.nrows();
-    R.resize_vertically(count + left, 0.0)
+    let R = Gamma_N.select_rows(users).qr().r();
+    let rows = R.nrows().max(1);
+    R.resize_vertically(rows, 0.0)
 }
 
 /// The rows of `N kron M` that belong to estimated states without a local observer.

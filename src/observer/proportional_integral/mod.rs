@@ -46,6 +46,10 @@ use crate::numerics::{
 };
 use crate::system::{DescriptorSystem, TimeDomain};
 
+/// Why a plant without unknown inputs has no proportional-integral observer, and what to do.
+pub(super) const NO_UNKNOWN_INPUT: &str = "the proportional-integral observer estimates an unknown input, but D has no \
+                                           columns: add one, or choose the proportional observer";
+
 /// Value of the integral row's diagonal: 0 for `f' = 0`, 1 for `f[k+1] = f[k]`.
 fn hold(time: TimeDomain) -> f64 {
     match time {
@@ -131,11 +135,7 @@ pub fn design(
     tolerance: &Tolerance,
 ) -> Result<Design, DesignError> {
     if system.n_unknown_inputs() == 0 {
-        return Err(DesignError::Unsuitable(
-            "the proportional-integral observer estimates an unknown input, but D has no columns: add one, or choose the \
-             proportional observer"
-                .to_owned(),
-        ));
+        return Err(DesignError::Unsuitable(NO_UNKNOWN_INPUT.to_owned()));
     }
     let equivalent = match choice.order {
         Order::General => compressed(system, tolerance)?,

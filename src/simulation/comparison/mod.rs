@@ -161,8 +161,8 @@ pub fn compare_with(
 }
 
 /// What the norms of a nonlinear plant are worth.
-const LINEAR_PART: &str = "the plant has a Lipschitz term: H-infinity norms and the figure of gains are those of the error \
-                           of the linear part, f = 0; of the whole plant only the guaranteed gamma says something";
+pub(super) const LINEAR_PART: &str = "the plant has a Lipschitz term: H-infinity norms are those of the error of the linear \
+                                      part, f = 0; of the whole plant only the guaranteed gamma says something";
 
 /// Conditions that cannot be decided, as a reason why there is no design.
 fn undecided(error: impl std::fmt::Display) -> DesignError {
