@@ -103,10 +103,32 @@ fn a_square_system_becomes_wide_by_a_click() {
     assert_eq!(report(&harness).n_free, 1, "three equations for four states");
     harness.get_by_label("One state is free:");
     click(&mut harness, "More equations");
-    assert!(analysis(&harness).free.is_none(), "square again");
+    assert_eq!(report(&harness).n_free, 1, "square again, but 0 = 0 determines nothing");
+    type_into(&mut harness, "A[4, 4]", "1");
+    assert!(analysis(&harness).free.is_none(), "0 = x4 does");
     click(&mut harness, "More states");
     let system = harness.state().session().document().system().unwrap();
     assert_eq!((system.n_states(), system.n_equations()), (5, 5), "and linked");
+}
+
+#[test]
+fn a_square_plant_with_a_free_state_offers_to_drive_it() {
+    let mut harness = harness("proportional-integral", [1500.0, 1200.0]);
+    assert!(analysis(&harness).free.is_none(), "of index 1");
+    // the third equation repeats the fourth
+    for (cell, text) in [("A[3, 1]", "0"), ("A[3, 2]", "2"), ("A[3, 3]", "2"), ("A[3, 4]", "2")] {
+        type_into(&mut harness, cell, text);
+    }
+    for column in 1..=4 {
+        type_into(&mut harness, &format!("A[4, {column}]"), if column == 1 { "0" } else { "1" });
+    }
+    type_into(&mut harness, "B[3, 1]", "0");
+    type_into(&mut harness, "B[4, 1]", "0");
+    assert_eq!(report(&harness).n_free, 1, "{:?}", analysis(&harness).simulation);
+    harness.get_by_label("One state is free:");
+    type_into(&mut harness, "v1", "cos(t)");
+    let signals = &harness.state().session().document().scenario.free.signals;
+    assert_eq!(signals[0].text(), "cos(t)", "driven");
 }
 
 #[test]

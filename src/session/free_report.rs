@@ -8,7 +8,7 @@ use crate::numerics::{Complex64, StabilityRegion};
 use crate::simulation::{BoundingFeedback, WidePlant};
 use crate::system::{Model, TimeDomain};
 
-/// The free states of a plant whose equations are not as many as its states.
+/// The free states of a plant that does not run as it is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FreeReport {
     /// How many variables are free.
@@ -28,16 +28,13 @@ pub struct FreeReport {
 }
 
 impl FreeReport {
-    /// Reports on the plant of a document; `None` for a square plant, which has no free states, and for equations that
-    /// contradict each other, of which the simulation says more.
+    /// Reports on the plant of a document; `None` for one that runs as it is, which has no free states, and for equations
+    /// that contradict each other, of which the simulation says more.
     pub(super) fn new(document: &Document, model: &Model) -> Option<Self> {
         let system = &model.system;
-        if system.E.is_square() {
-            return None;
-        }
         let tolerance = &document.tolerance;
         let x0 = DVector::zeros(system.n_states());
-        let wide = WidePlant::new(model, &x0, &DVector::zeros(system.n_inputs()), tolerance).ok()?;
+        let wide = WidePlant::needed(model, &x0, &DVector::zeros(system.n_inputs()), tolerance).ok()??;
         let modes = wide
             .motion(model, &document.scenario.free.values(), tolerance)
             .and_then(|motion| {

@@ -17,6 +17,9 @@ use crate::system::Signal;
 /// Feedbacks of more states than this are edited in the document.
 const LARGEST_GRID: usize = 20;
 
+/// Said while signals or a feedback are there and no state is free.
+const NOTHING_FREE: &str = "Signals and feedback of free states wait: the equations determine every state.";
+
 /// Draws what is free; nothing for a plant whose equations determine everything.
 pub(super) fn show(
     ui: &mut Ui,
@@ -28,16 +31,17 @@ pub(super) fn show(
     let document = session.document();
     let free = &document.scenario.free;
     let sizes = Sizes::of(document);
-    if sizes.equations == sizes.states {
-        if *free != FreeData::default() {
-            formula::remark(
-                ui,
-                "Signals and feedback of free states wait: as many equations as states leave none.",
-            );
+    let Some(analysis) = derived.analysis() else { return };
+    let waits = *free != FreeData::default();
+    let Some(report) = analysis.free.as_ref() else {
+        if waits && sizes.equations == sizes.states {
+            formula::remark(ui, NOTHING_FREE);
         }
         return;
+    };
+    if waits && report.n_free == 0 {
+        formula::remark(ui, NOTHING_FREE);
     }
-    let Some(report) = derived.analysis().and_then(|analysis| analysis.free.as_ref()) else { return };
     if report.n_free > 0 {
         ui.horizontal_wrapped(|ui| {
             ui.label(RichText::new(count(report.n_free)).strong()).on_hover_text(
