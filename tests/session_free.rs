@@ -2,7 +2,9 @@
 #![cfg(not(target_arch = "wasm32"))]
 #![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail by panicking")]
 
-use descry::document::{EntryMatrix, FreeData, Matrix, PlantData, read_document, write_document};
+use descry::document::{
+    EntryMatrix, FreeData, Matrix, PlantData, UncertaintyData, read_document, write_document,
+};
 use descry::numerics::{Complex64, Watch, spectral_distance};
 use descry::observer::{Method, Order};
 use descry::session::{
@@ -247,6 +249,21 @@ fn a_square_plant_with_a_free_state_is_driven_like_a_wide_one() {
     edit(&mut session, Edit::Cell { cell, text: text("1") });
     let found = analysis(&session);
     assert!(found.free.is_none() && found.simulation.is_ok(), "of index 1: it runs as it is");
+}
+
+#[test]
+fn bounded_is_the_linear_part_where_there_is_more() {
+    let session = wide();
+    assert!(!report(&session).linear_part, "linear and certain");
+    let mut document = session.document().clone();
+    let mut uncertain = |amplitude: f64| {
+        let of = |x: f64| EntryMatrix::from_matrix(&DMatrix::from_element(3, 4, x));
+        document.scenario.uncertainty =
+            Some(UncertaintyData { amplitude: of(amplitude), frequency: of(1.0), scale: 1.0 });
+        analyse(&document, &Watch::none()).unwrap().free.unwrap()
+    };
+    assert!(!uncertain(0.0).linear_part, "nothing varies");
+    assert!(uncertain(0.1).linear_part, "what varies does not belong to the modes");
 }
 
 #[test]

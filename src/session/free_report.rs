@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::document::Document;
 use crate::numerics::{Complex64, StabilityRegion};
-use crate::simulation::{BoundingFeedback, WidePlant};
+use crate::simulation::{BoundingFeedback, FeedbackError, WidePlant};
 use crate::system::{Model, TimeDomain};
 
 /// The free states of a plant that does not run as it is.
@@ -21,6 +21,8 @@ pub struct FreeReport {
     pub modes: Result<Vec<Complex64>, String>,
     /// Those of them that are not stable.
     pub unstable: Vec<Complex64>,
+    /// Whether there is more to the plant than what has these modes: a nonlinearity or uncertain entries.
+    pub linear_part: bool,
     /// A feedback that keeps the plant bounded, or why there is none or no need for one.
     pub bounding: Result<BoundingFeedback, String>,
     /// What simulations remark of the free states: the same in a sentence.
@@ -35,6 +37,15 @@ impl FreeReport {
         let tolerance = &document.tolerance;
         let x0 = DVector::zeros(system.n_states());
         let wide = WidePlant::needed(model, &x0, &DVector::zeros(system.n_inputs()), tolerance).ok()??;
+        let uncertainty = document.scenario.uncertainty.as_ref();
+        let uncertain = uncertainty
+            .is_some_and(|data| data.scale != 0.0 && data.amplitude.values().iter().any(|x| *x != 0.0));
+        let in_words = |error: FeedbackError| match error {
+            FeedbackError::BoundedAlready { modes, linear_part } => {
+                FeedbackError::BoundedAlready { modes, linear_part: linear_part || uncertain }.to_string()
+            }
+            other => other.to_string(),
+        };
         let modes = wide
             .motion(model, &document.scenario.free.values(), tolerance)
             .and_then(|motion| {
@@ -54,7 +65,8 @@ impl FreeReport {
             constrained: wide.constrained,
             modes: modes.map(|(modes, _)| modes),
             unstable,
-            bounding: wide.bounding_feedback(model, tolerance).map_err(|error| error.to_string()),
+            linear_part: model.lipschitz.is_some() || uncertain,
+            bounding: wide.bounding_feedback(model, tolerance).map_err(in_words),
             remark: wide.remark(),
         })
     }

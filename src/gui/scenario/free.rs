@@ -128,9 +128,12 @@ fn feedback_line(ui: &mut Ui, free: &FreeData, report: &FreeReport, states: usiz
         let button = egui::Button::new("Keep the plant bounded");
         match &report.bounding {
             Ok(found) => {
-                let hint = format!("Gives the plant the modes {}", list(&found.modes));
+                let hint = format!("Gives {} the modes {}", subject(report), list(&found.modes));
                 if ui.add(button).on_hover_text(hint).clicked() {
                     out.edit(Edit::Free(FreeEdit::Feedback(Some(found.feedback.clone()))));
+                }
+                if let Some(warning) = &found.warning {
+                    ui.label(RichText::new(warning).small().color(theme::near(ui)));
                 }
             }
             Err(why) => {
@@ -171,19 +174,25 @@ fn grid(
     }
 }
 
+/// What has the modes: the plant, or what of it is linear and certain.
+fn subject(report: &FreeReport) -> &'static str {
+    if report.linear_part { "the linear part of the plant" } else { "the plant" }
+}
+
 /// The modes of the plant, and whether it grows.
 fn modes(ui: &mut Ui, report: &FreeReport) {
+    let subject = subject(report).replacen('t', "T", 1);
     match &report.modes {
         Ok(modes) if modes.is_empty() => {}
         Ok(modes) if report.unstable.is_empty() => {
-            formula::remark(ui, &format!("The plant stays bounded: its modes are {}.", list(modes)));
+            formula::remark(ui, &format!("{subject} stays bounded: its modes are {}.", list(modes)));
         }
         Ok(modes) => {
             let (all, growing) = (list(modes), list(&report.unstable));
             let text = if modes.len() == report.unstable.len() {
-                format!("The plant may grow: its modes {all} do not decay.")
+                format!("{subject} may grow: its modes {all} do not decay.")
             } else {
-                format!("The plant may grow: of its modes {all} not all decay ({growing}).")
+                format!("{subject} may grow: of its modes {all} not all decay ({growing}).")
             };
             ui.label(RichText::new(text).small().color(theme::near(ui)));
         }
