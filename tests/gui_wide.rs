@@ -1,4 +1,4 @@
-//! Plants that are not square and the misprints of the papers, used as a person uses them, without a window.
+//! Plants with free states and the errata of the papers, used as a person uses them, without a window.
 #![cfg(all(not(target_arch = "wasm32"), feature = "gui"))]
 #![expect(clippy::unwrap_used, reason = "helpers of tests may fail a test")]
 
@@ -152,23 +152,31 @@ fn equations_that_contradict_each_other_say_what_to_do() {
 }
 
 #[test]
-fn misprints_stand_beside_what_they_concern_and_in_a_list() {
+fn errata_stand_beside_what_they_concern_and_in_a_list() {
     let mut harness = harness("input-decoupled", [1500.0, 5000.0]);
     harness.get_by_label_contains("printed \"G = [5/3 4/3]\"");
-    let pairs = |harness: &Harness<'_, App>| harness.query_all_by_label("printed").count();
-    assert_eq!(pairs(&harness), 2, "G and L as they are printed, beside ours");
+    harness.get_by_label_contains("Misprint, section III, d_hat: ");
+    harness
+        .get_by_label_contains("Not unique, section III, L: printed \"L = [0 6 1; 6 2 0]\", right as well");
+    harness.get_by_label_contains("Omission, Theorem 2: ");
+    let pairs = |harness: &Harness<'_, App>| {
+        ["printed", "printed, right as well"].map(|word| harness.query_all_by_label(word).count())
+    };
+    assert_eq!(pairs(&harness), [1, 1], "G and L as they are printed, beside ours");
     assert_eq!(harness.query_all_by_label("ours").count(), 2, "ours");
     let heights = [
         harness.get_by_label_contains("printed \"G = ").rect().min.y,
         harness.get_by_label("Q1").rect().min.y,
     ];
     assert!(heights[1] - heights[0] < 100.0, "the pair takes no more room than it needs: {heights:?}");
-    // another plant: its G is not the printed one, its L happens to stay
+    // another plant, whose L happens to stay
     type_into(&mut harness, "A[3, 2]", "3");
-    assert_eq!(pairs(&harness), 1, "what is printed for G does not belong to this one");
+    assert_eq!(pairs(&harness), [0, 0], "what is printed does not belong to this one");
+    assert!(harness.query_by_label_contains("printed \"G = ").is_none(), "nor what is said of it");
+    harness.get_by_label_contains("Omission, Theorem 2: ");
     click(&mut harness, "Undo");
     assert!(harness.query_by_label("section III, d_hat").is_none(), "the list is folded");
-    click(&mut harness, "Misprints of paper 001 (5)");
+    click(&mut harness, "Errata of paper 001 (5)");
     harness.get_by_label("section III, d_hat");
     harness.get_all_by_label_contains("its coefficient of z is [0 0] with -4/3").next().unwrap();
 }
@@ -176,10 +184,10 @@ fn misprints_stand_beside_what_they_concern_and_in_a_list() {
 #[test]
 fn the_list_is_that_of_the_chosen_method() {
     let mut harness = harness("proportional-integral", [1500.0, 3000.0]);
-    harness.get_by_label("Misprints of paper 004 (13)");
+    harness.get_by_label("Errata of paper 004 (13)");
     click(&mut harness, "Input-decoupled");
     assert_eq!(harness.state().session().document().design.method, Method::InputDecoupled, "the tile");
-    harness.get_by_label("Misprints of paper 001 (5)");
+    harness.get_by_label("Errata of paper 001 (5)");
     click(&mut harness, "General");
     assert_eq!(harness.state().session().document().design.order, Order::General, "its second order");
 }

@@ -23,6 +23,7 @@ mod model;
 mod network;
 mod network_matrix;
 mod pretty;
+mod printed_example;
 mod read;
 pub mod report;
 mod write;

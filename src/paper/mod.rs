@@ -14,7 +14,7 @@ pub mod standard_network;
 mod standard_trade_off;
 
 pub use compute::{compute_figure, compute_network_figure};
-pub use errata::{Erratum, PrintedMatrix, errata, papers_with_errata, printed};
+pub use errata::{Erratum, ErratumKind, PrintedMatrix, errata, papers_with_errata, printed};
 pub use figure::{Axis, FigureSpec, Panel, Role, Series};
 pub use motion::Motion;
 pub use palette::{PALETTE, colour};

@@ -1,11 +1,11 @@
-//! Misprints of the chosen method's paper: a list, and what is printed in the place of a matrix.
+//! Errata of the chosen method's paper: a list, and what is printed in the place of a matrix.
 
 use egui::{CollapsingHeader, RichText, Ui};
 
 use super::super::{formula, theme};
 use crate::document::Document;
 use crate::observer::Method;
-use crate::paper::{Erratum, PrintedMatrix, errata};
+use crate::paper::{Erratum, ErratumKind, PrintedMatrix, errata};
 
 /// Draws the list, folded at first.
 pub(super) fn show(ui: &mut Ui, method: Method) {
@@ -15,8 +15,8 @@ pub(super) fn show(ui: &mut Ui, method: Method) {
         return;
     }
     ui.separator();
-    let title = format!("Misprints of paper {paper} ({count})");
-    CollapsingHeader::new(RichText::new(title).strong()).id_salt(("misprints", paper)).show(ui, |ui| {
+    let title = format!("Errata of paper {paper} ({count})");
+    CollapsingHeader::new(RichText::new(title).strong()).id_salt(("errata", paper)).show(ui, |ui| {
         for erratum in errata(paper) {
             let fill = ui.visuals().faint_bg_color;
             egui::Frame::new().fill(fill).corner_radius(5.0).inner_margin(7.0).show(ui, |ui| {
@@ -28,9 +28,17 @@ pub(super) fn show(ui: &mut Ui, method: Method) {
 }
 
 fn one(ui: &mut Ui, erratum: &Erratum) {
-    ui.label(RichText::new(erratum.place).strong());
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new(erratum.place).strong());
+        formula::remark(ui, erratum.kind.word());
+    });
+    let print = match erratum.kind {
+        ErratumKind::NotUnique => theme::good(ui),
+        ErratumKind::Omission => theme::near(ui),
+        ErratumKind::Misprint | ErratumKind::Mistake => theme::bad(ui),
+    };
     for (word, text, colour) in
-        [("printed", erratum.printed, theme::bad(ui)), ("ours", erratum.correct, theme::good(ui))]
+        [("printed", erratum.printed, print), (erratum.kind.beside(), erratum.correct, theme::good(ui))]
     {
         ui.horizontal_wrapped(|ui| {
             ui.label(RichText::new(word).small().color(colour));
@@ -40,32 +48,36 @@ fn one(ui: &mut Ui, erratum: &Erratum) {
     formula::remark(ui, erratum.proof);
 }
 
-/// Draws the misprints that concern a condition or a matrix, beside it; those in the numbers of the paper's example only
-/// where the document is that example.
+/// Draws what concerns a condition or a matrix, beside it; what is in the numbers of the paper's example only where the
+/// document is that example.
 pub(super) fn beside(ui: &mut Ui, (paper, concerns): (&str, &str), document: &Document) {
     let belongs = |erratum: &&Erratum| {
-        erratum.concerns == concerns && (!erratum.of_example() || document.paper == paper)
+        erratum.concerns == concerns && (!erratum.of_example() || document.is_printed_example(paper))
     };
     for erratum in errata(paper).filter(belongs) {
+        let Erratum { kind, place, printed, correct, proof, .. } = erratum;
+        let (word, beside) = (kind.word(), kind.beside());
+        let capital: String = word.chars().take(1).flat_map(char::to_uppercase).collect();
+        let rest: String = word.chars().skip(1).collect();
         formula::remark(
             ui,
-            &format!(
-                "Misprint, {}: printed \"{}\", correct \"{}\": {}",
-                erratum.place, erratum.printed, erratum.correct, erratum.proof
-            ),
+            &format!("{capital}{rest}, {place}: printed \"{printed}\", {beside} \"{correct}\": {proof}"),
         );
     }
 }
 
-/// Draws a matrix as it is printed; entries that should be others stand out.
+/// Draws a matrix as it is printed; entries that are wrong stand out.
 pub(super) fn printed(ui: &mut Ui, known: &PrintedMatrix, digits: fn(f64) -> String) {
     ui.vertical(|ui| {
-        formula::remark(ui, "printed");
+        match known.kind {
+            ErratumKind::NotUnique => formula::remark(ui, "printed, right as well"),
+            _ => formula::remark(ui, "printed"),
+        }
         egui::Grid::new(("printed", known.name)).spacing([14.0, 2.0]).show(ui, |ui| {
             for (i, row) in known.printed.iter().enumerate() {
                 for (j, value) in row.iter().enumerate() {
                     let text = RichText::new(digits(*value)).monospace();
-                    let text = if known.differs(i, j) {
+                    let text = if known.is_wrong(i, j) {
                         text.color(theme::near(ui)).strong()
                     } else {
                         text.color(theme::faint(ui))

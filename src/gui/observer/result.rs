@@ -110,7 +110,11 @@ fn named_matrix(ui: &mut Ui, document: &Document, method: Method, matrix: &Named
     }
     // a local observer's matrix carries the name of its subsystem: `N (first)`
     let letter = matrix.name.split(" (").next().unwrap_or_default();
-    let known = printed(method.paper(), letter, &matrix.value);
+    let known = if document.is_printed_example(method.paper()) {
+        printed(method.paper(), letter, &matrix.value)
+    } else {
+        None
+    };
     egui::ScrollArea::horizontal().id_salt(("named", &matrix.name)).auto_shrink([false, true]).show(
         ui,
         |ui| match known {

@@ -1,11 +1,12 @@
 //! Misprints of paper 000.
 
-use super::Erratum;
+use super::{Erratum, ErratumKind};
 
 /// In the order of its pages.
 pub(super) const ERRATA: [Erratum; 19] = [
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "Proposition 1, ii and v",
         concerns: "",
         printed: "A_i",
@@ -14,6 +15,7 @@ pub(super) const ERRATA: [Erratum; 19] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "section III",
         concerns: "",
         printed: "v_i as a row",
@@ -22,6 +24,7 @@ pub(super) const ERRATA: [Erratum; 19] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "before (23)",
         concerns: "",
         printed: "rank Sigma_i = n_ii with Sigma_i = R_i Phi_i A_ii; H_i",
@@ -30,6 +33,7 @@ pub(super) const ERRATA: [Erratum; 19] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "definition of Omega_i",
         concerns: "",
         printed: "Omega_i in R^((n_i + r_phi_i + m_i) x n_i)",
@@ -38,6 +42,7 @@ pub(super) const ERRATA: [Erratum; 19] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "definition of Delta_Psi",
         concerns: "",
         printed: "Omega Omega^+",
@@ -46,6 +51,7 @@ pub(super) const ERRATA: [Erratum; 19] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "Theorem 2",
         concerns: "",
         printed: "variables X_i, Y_i and Omega_Yii",
@@ -54,6 +60,7 @@ pub(super) const ERRATA: [Erratum; 19] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "(34)",
         concerns: "",
         printed: "(2,4)",
@@ -62,6 +69,7 @@ pub(super) const ERRATA: [Erratum; 19] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Omission,
         place: "Proposition 1",
         concerns: "",
         printed: "the title says existence",
@@ -70,6 +78,7 @@ pub(super) const ERRATA: [Erratum; 19] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Omission,
         place: "Definition of gamma",
         concerns: "",
         printed: "||e|| < gamma ||v2||",
@@ -78,6 +87,7 @@ pub(super) const ERRATA: [Erratum; 19] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "Figures 2 and 4",
         concerns: "",
         printed: "the text has e = x_hat - x",
@@ -86,6 +96,7 @@ pub(super) const ERRATA: [Erratum; 19] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Mistake,
         place: "Remark 1",
         concerns: "",
         printed: "D_i1: the part of D_i with full column rank",
@@ -95,6 +106,7 @@ pub(super) const ERRATA: [Erratum; 19] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "Remarks 1 and 2",
         concerns: "",
         printed: "Phi_i = 0",
@@ -103,6 +115,7 @@ pub(super) const ERRATA: [Erratum; 19] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Mistake,
         place: "section IV, orders",
         concerns: "",
         printed: "reduced order n_i - m_i, minimal order n_i - r_phi_i - m_i",
@@ -111,6 +124,7 @@ pub(super) const ERRATA: [Erratum; 19] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "section V, Y_1",
         concerns: "",
         printed: "Y_1 is 1 x 5, Z_i is 3 x 5",
@@ -119,6 +133,7 @@ pub(super) const ERRATA: [Erratum; 19] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "section V, last entry of Y_1",
         concerns: "",
         printed: "0- 0.27",
@@ -127,6 +142,7 @@ pub(super) const ERRATA: [Erratum; 19] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "section V, Q_1 Phi_1 B_1",
         concerns: "Q",
         printed: "10^-12 [111 111 0; -5 -5 0; -222 -222 0]",
@@ -136,6 +152,7 @@ pub(super) const ERRATA: [Erratum; 19] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "section V, F_1",
         concerns: "F",
         printed: "F_1 is 2 x 2",
@@ -144,6 +161,7 @@ pub(super) const ERRATA: [Erratum; 19] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::NotUnique,
         place: "section V, Z_i",
         concerns: "",
         printed: "-222.04",
@@ -152,6 +170,7 @@ pub(super) const ERRATA: [Erratum; 19] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Mistake,
         place: "section V, figures",
         concerns: "",
         printed: "continuous time",

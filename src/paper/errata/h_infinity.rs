@@ -1,11 +1,12 @@
 //! Misprints of paper 002.
 
-use super::Erratum;
+use super::{Erratum, ErratumKind};
 
 /// In the order of its pages.
 pub(super) const ERRATA: [Erratum; 12] = [
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "before (38)",
         concerns: "T",
         printed: "T = T + Psi Phi",
@@ -14,6 +15,7 @@ pub(super) const ERRATA: [Erratum; 12] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "definition of Omega",
         concerns: "",
         printed: "Omega = [T E; Phi A; C]",
@@ -23,6 +25,7 @@ pub(super) const ERRATA: [Erratum; 12] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "(53), block (1,4)",
         concerns: "",
         printed: "Q1' Lambda_phi1",
@@ -31,6 +34,7 @@ pub(super) const ERRATA: [Erratum; 12] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "after (53)",
         concerns: "",
         printed: "Delta_TD = -Delta_Psi Lambda Phi D",
@@ -39,6 +43,7 @@ pub(super) const ERRATA: [Erratum; 12] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "(13)",
         concerns: "",
         printed: "E' Y = Y', E >= 0",
@@ -47,6 +52,7 @@ pub(super) const ERRATA: [Erratum; 12] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "(12)",
         concerns: "",
         printed: "B = [T D; -Q Phi D], D = [phi1; phi2] with one letter D for two matrices",
@@ -55,6 +61,7 @@ pub(super) const ERRATA: [Erratum; 12] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "(14), (22) and Remark 7",
         concerns: "",
         printed: "lambda_1^2",
@@ -63,6 +70,7 @@ pub(super) const ERRATA: [Erratum; 12] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "(18), (25)",
         concerns: "",
         printed: "eps as the vector of the error system",
@@ -71,6 +79,7 @@ pub(super) const ERRATA: [Erratum; 12] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "(29), (35)",
         concerns: "",
         printed: "rho = blkdiag(0, I + lambda^2 F_L' F_L)",
@@ -79,6 +88,7 @@ pub(super) const ERRATA: [Erratum; 12] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "(36)",
         concerns: "",
         printed: "Y = X E + E_perp Q",
@@ -87,6 +97,7 @@ pub(super) const ERRATA: [Erratum; 12] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "(5)",
         concerns: "",
         printed: "f(t, F_L, x_hat, u)",
@@ -95,6 +106,7 @@ pub(super) const ERRATA: [Erratum; 12] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "section 4",
         concerns: "gamma",
         printed: "gamma^2 = 9.762",

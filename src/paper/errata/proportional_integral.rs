@@ -1,11 +1,12 @@
 //! Misprints of paper 004.
 
-use super::Erratum;
+use super::{Erratum, ErratumKind};
 
 /// In the order of its pages.
 pub(super) const ERRATA: [Erratum; 13] = [
     Erratum {
         paper: "004",
+        kind: ErratumKind::Misprint,
         place: "after equation (4)",
         concerns: "",
         printed: "y in R^(q+m+e-r)",
@@ -14,6 +15,7 @@ pub(super) const ERRATA: [Erratum; 13] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Misprint,
         place: "equation (5)",
         concerns: "L2",
         printed: "z' = F z + L1 y + L2 y_hat + J u + T1 N f_hat",
@@ -23,6 +25,7 @@ pub(super) const ERRATA: [Erratum; 13] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Misprint,
         place: "Algorithm 1",
         concerns: "T1",
         printed: "[T1 T2] = [E^+]",
@@ -31,6 +34,7 @@ pub(super) const ERRATA: [Erratum; 13] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Misprint,
         place: "before equation (16)",
         concerns: "",
         printed: "input observable",
@@ -39,6 +43,7 @@ pub(super) const ERRATA: [Erratum; 13] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Misprint,
         place: "equation (19)",
         concerns: "M1",
         printed: "x_hat = E1^+ x1_hat + P1 x2_hat",
@@ -47,6 +52,7 @@ pub(super) const ERRATA: [Erratum; 13] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Omission,
         place: "Theorem 4",
         concerns: "004-22",
         printed: "(12) and rank E = r",
@@ -56,6 +62,7 @@ pub(super) const ERRATA: [Erratum; 13] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Misprint,
         place: "equations (22), (23) and appendix",
         concerns: "004-23",
         printed: "s I_n in the reduced test",
@@ -64,6 +71,7 @@ pub(super) const ERRATA: [Erratum; 13] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Misprint,
         place: "Algorithm 2",
         concerns: "",
         printed: "[A1 A2] = A P2",
@@ -72,6 +80,7 @@ pub(super) const ERRATA: [Erratum; 13] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Mistake,
         place: "section IV, case 1",
         concerns: "",
         printed: "A~* = A* (I + Delta A)",
@@ -80,6 +89,7 @@ pub(super) const ERRATA: [Erratum; 13] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Omission,
         place: "section IV, bounds of the uncertainty",
         concerns: "",
         printed: "|delta_ij| < 10",
@@ -88,6 +98,7 @@ pub(super) const ERRATA: [Erratum; 13] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Misprint,
         place: "section IV, check of (8)",
         concerns: "004-8",
         printed: "rank [E* N*; C* 0] = rank E*",
@@ -96,6 +107,7 @@ pub(super) const ERRATA: [Erratum; 13] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Omission,
         place: "appendix, proof of (12)",
         concerns: "004-10",
         printed: "Re s > 0 and s = 0",
@@ -104,6 +116,7 @@ pub(super) const ERRATA: [Erratum; 13] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Mistake,
         place: "appendix, left factor of (13)",
         concerns: "004-13",
         printed: "(8) and (9) suffice for (12) <=> (13)",
