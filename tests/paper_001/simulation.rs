@@ -5,7 +5,10 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use super::*;
 use descry::numerics::Watch;
-use descry::simulation::{FreeVariables, Scenario, SimulationError, Trajectory, Uncertainty, WidePlant};
+use descry::simulation::{
+    FreeVariables, Inputs, Plant, Scenario, SimulationError, Span, Trajectory, Uncertainty, WidePlant,
+    simulate,
+};
 use descry::system::{Signal, nonlinearity};
 use nalgebra::dvector;
 
@@ -67,32 +70,6 @@ pub(crate) fn exponential(m: &DMatrix<f64>) -> DMatrix<f64> {
         sum = &sum * &sum;
     }
     sum
-}
-
-#[test]
-fn the_example_runs_as_in_the_reference() {
-    let reference = reference();
-    let data = &reference["simulation"];
-    let design = paper_design(Order::Full);
-    let scenario = scenario_001(3.0, 7, "1.5*sin(3*t)");
-    let found = run(&example(), &scenario, &following(&["0.5*sin(1.7*t)"]), &[&design]).unwrap();
-    for row in data["rows"].as_array().unwrap() {
-        let t = row["t"].as_f64().unwrap();
-        let at = found.t.iter().position(|s| (s - t).abs() < 1e-12).unwrap();
-        let observer = &found.observers[0];
-        for (name, values) in [
-            ("x", &found.x),
-            ("y", &found.y),
-            ("d", &found.d),
-            ("xhat", &observer.x_hat),
-            ("dhat", &observer.d_hat),
-        ] {
-            let expected: Vec<f64> = serde_json::from_value(row[name].clone()).unwrap();
-            let off = (values.column(at) - DVector::from_vec(expected)).amax();
-            assert!(off < 1e-6, "{name} at t = {t}: off by {off:.1e}");
-        }
-    }
-    assert!(found.remarks.iter().any(|r| r.contains("v1 = 0.7071 x3 - 0.7071 x4")), "{:?}", found.remarks);
 }
 
 /// Largest distance of the errors from `K e^(H t) e0` and `G e^(H t) e0`, relative to the initial error.
@@ -428,5 +405,37 @@ fn errors_of_discrete_designs_follow_the_powers_of_h() {
             e = H * e;
         }
         assert!(found.t.len() == 13 && e.amax() < 1e-2, "thirteen steps, and the error is nearly gone: {e}");
+    }
+}
+
+#[test]
+fn errors_start_from_wherever_the_observer_starts() {
+    // a square plant of index 1, so that it runs alone: n = m
+    let square = DescriptorSystem {
+        time: TimeDomain::Continuous,
+        E: DMatrix::from_diagonal(&dvector![1.0, 1.0, 0.0]),
+        A: dmatrix![0.0, 1.0, 0.0; -2.0, -1.0, 1.0; 1.0, 0.0, 1.0],
+        B: dmatrix![0.0; 1.0; 0.0],
+        C: dmatrix![1.0, 0.0, 0.0; 0.0, 0.0, 1.0; 0.0, 1.0, 0.0],
+        D: dmatrix![0.0; 1.0; 0.0],
+        F: dmatrix![0.0; 1.0; 0.5],
+    };
+    let design = designed(&square, &choice(Order::Full, &[-1.0, -2.0])).unwrap();
+    verified(&design);
+    let plant = Plant::new(&square, None, &Tolerance::default()).unwrap();
+    let inputs = Inputs {
+        known: &|t: f64, out: &mut [f64]| out[0] = t.cos(),
+        unknown: &|t: f64, out: &mut [f64]| out[0] = (3.0 * t).sin(),
+        noise: &|_t: f64, out: &mut [f64]| out.fill(0.0),
+        jumps: &[],
+        kinks: &[],
+    };
+    for z0 in [[0.0, 0.0], [3.0, -4.0]] {
+        let span = Span { horizon: 2.0, samples: 21 };
+        let observers = [(&design.observer, &z0[..])];
+        let found = simulate(&plant, &observers, &[1.0, -1.0, 0.0], &inputs, span).unwrap();
+        assert_eq!(found.observers[0].z.column(0).as_slice(), z0, "it starts there");
+        let off = off_the_law(&design, &found, &[0, 1]);
+        assert!(off < 1e-8, "z(0) = {z0:?}: off by {off:.1e}");
     }
 }
