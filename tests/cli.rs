@@ -348,13 +348,15 @@ fn examples_are_listed_and_written_out() {
 }
 
 #[test]
-fn misprints_are_listed_with_their_proofs() {
+fn errata_are_listed_with_their_kinds_and_proofs() {
     let ran = run(&["errata", "001"]);
     assert_eq!((ran.code, ran.err.as_str()), (0, ""), "a list is an answer");
     let report = ran.json();
     let found = report["errata"].as_array().unwrap();
     let misprint = found.iter().find(|e| e["concerns"] == "G").unwrap();
-    assert_eq!(misprint["printed"], "G = [5/3 4/3]");
+    assert_eq!((&misprint["kind"], &misprint["printed"]), (&"misprint".into(), &"G = [5/3 4/3]".into()));
+    let gain = found.iter().find(|e| e["concerns"] == "L").unwrap();
+    assert_eq!(gain["kind"], "not unique", "right as printed");
     assert!(misprint["proof"].as_str().unwrap().contains("16/3"), "{misprint}");
     assert!(found.iter().all(|e| e["paper"] == "001"), "no other paper's");
     let all = run(&["errata"]).json()["errata"].as_array().unwrap().len();

@@ -1,4 +1,4 @@
-//! Plants that are not square and the misprints of the papers, used as a person uses them, without a window.
+//! Plants with free states and the errata of the papers, used as a person uses them, without a window.
 #![cfg(all(not(target_arch = "wasm32"), feature = "gui"))]
 #![expect(clippy::unwrap_used, reason = "helpers of tests may fail a test")]
 
@@ -104,10 +104,32 @@ fn a_square_system_becomes_wide_by_a_click() {
     assert_eq!(report(&harness).n_free, 1, "three equations for four states");
     harness.get_by_label("One state is free:");
     click(&mut harness, "More equations");
-    assert!(analysis(&harness).free.is_none(), "square again");
+    assert_eq!(report(&harness).n_free, 1, "square again, but 0 = 0 determines nothing");
+    type_into(&mut harness, "A[4, 4]", "1");
+    assert!(analysis(&harness).free.is_none(), "0 = x4 does");
     click(&mut harness, "More states");
     let system = harness.state().session().document().system().unwrap();
     assert_eq!((system.n_states(), system.n_equations()), (5, 5), "and linked");
+}
+
+#[test]
+fn a_square_plant_with_a_free_state_offers_to_drive_it() {
+    let mut harness = harness("proportional-integral", [1500.0, 1200.0]);
+    assert!(analysis(&harness).free.is_none(), "of index 1");
+    // the third equation repeats the fourth
+    for (cell, text) in [("A[3, 1]", "0"), ("A[3, 2]", "2"), ("A[3, 3]", "2"), ("A[3, 4]", "2")] {
+        type_into(&mut harness, cell, text);
+    }
+    for column in 1..=4 {
+        type_into(&mut harness, &format!("A[4, {column}]"), if column == 1 { "0" } else { "1" });
+    }
+    type_into(&mut harness, "B[3, 1]", "0");
+    type_into(&mut harness, "B[4, 1]", "0");
+    assert_eq!(report(&harness).n_free, 1, "{:?}", analysis(&harness).simulation);
+    harness.get_by_label("One state is free:");
+    type_into(&mut harness, "v1", "cos(t)");
+    let signals = &harness.state().session().document().scenario.free.signals;
+    assert_eq!(signals[0].text(), "cos(t)", "driven");
 }
 
 #[test]
@@ -131,23 +153,31 @@ fn equations_that_contradict_each_other_say_what_to_do() {
 }
 
 #[test]
-fn misprints_stand_beside_what_they_concern_and_in_a_list() {
+fn errata_stand_beside_what_they_concern_and_in_a_list() {
     let mut harness = harness("input-decoupled", [1500.0, 5000.0]);
     harness.get_by_label_contains("printed \"G = [5/3 4/3]\"");
-    let pairs = |harness: &Harness<'_, App>| harness.query_all_by_label("printed").count();
-    assert_eq!(pairs(&harness), 2, "G and L as they are printed, beside ours");
+    harness.get_by_label_contains("Misprint, section III, d_hat: ");
+    harness
+        .get_by_label_contains("Not unique, section III, L: printed \"L = [0 6 1; 6 2 0]\", right as well");
+    harness.get_by_label_contains("Omission, Theorem 2: ");
+    let pairs = |harness: &Harness<'_, App>| {
+        ["printed", "printed, right as well"].map(|word| harness.query_all_by_label(word).count())
+    };
+    assert_eq!(pairs(&harness), [1, 1], "G and L as they are printed, beside ours");
     assert_eq!(harness.query_all_by_label("ours").count(), 2, "ours");
     let heights = [
         harness.get_by_label_contains("printed \"G = ").rect().min.y,
         harness.get_by_label("Q1").rect().min.y,
     ];
     assert!(heights[1] - heights[0] < 100.0, "the pair takes no more room than it needs: {heights:?}");
-    // another plant: its G is not the printed one, its L happens to stay
+    // another plant, whose L happens to stay
     type_into(&mut harness, "A[3, 2]", "3");
-    assert_eq!(pairs(&harness), 1, "what is printed for G does not belong to this one");
+    assert_eq!(pairs(&harness), [0, 0], "what is printed does not belong to this one");
+    assert!(harness.query_by_label_contains("printed \"G = ").is_none(), "nor what is said of it");
+    harness.get_by_label_contains("Omission, Theorem 2: ");
     click(&mut harness, "Undo");
     assert!(harness.query_by_label("section III, d_hat").is_none(), "the list is folded");
-    click(&mut harness, "Misprints of paper 001 (5)");
+    click(&mut harness, "Errata of paper 001 (5)");
     harness.get_by_label("section III, d_hat");
     harness.get_all_by_label_contains("its coefficient of z is [0 0] with -4/3").next().unwrap();
 }
@@ -155,10 +185,10 @@ fn misprints_stand_beside_what_they_concern_and_in_a_list() {
 #[test]
 fn the_list_is_that_of_the_chosen_method() {
     let mut harness = harness("proportional-integral", [1500.0, 3000.0]);
-    harness.get_by_label("Misprints of paper 004 (14)");
+    harness.get_by_label("Errata of paper 004 (14)");
     click(&mut harness, "Input-decoupled");
     assert_eq!(harness.state().session().document().design.method, Method::InputDecoupled, "the tile");
-    harness.get_by_label("Misprints of paper 001 (5)");
+    harness.get_by_label("Errata of paper 001 (5)");
     click(&mut harness, "General");
     assert_eq!(harness.state().session().document().design.order, Order::General, "its second order");
 }
@@ -166,7 +196,7 @@ fn the_list_is_that_of_the_chosen_method() {
 /// The misprints that stand open beside what they concern.
 fn open_misprints(harness: &Harness<'_, App>, paper: &str) -> Vec<&'static str> {
     let shown = |place: &&'static str| {
-        harness.query_all_by_label_contains(&format!("Misprint, {place}: ")).next().is_some()
+        harness.query_all_by_label_contains(&format!(", {place}: printed ")).next().is_some()
     };
     errata(paper).map(|erratum| erratum.place).filter(shown).collect()
 }
@@ -174,7 +204,7 @@ fn open_misprints(harness: &Harness<'_, App>, paper: &str) -> Vec<&'static str> 
 /// The misprints that stand beside what they concern, open or folded.
 fn misprints(harness: &mut Harness<'_, App>, paper: &str) -> Vec<&'static str> {
     let mut found = open_misprints(harness, paper);
-    for fold in harness.query_all_by_label_contains("Misprints beside ") {
+    for fold in harness.query_all_by_label_contains("Errata beside ") {
         fold.click_accesskit();
     }
     settle(harness);

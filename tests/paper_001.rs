@@ -31,6 +31,8 @@ mod figures;
 mod narrow;
 #[path = "paper_001/random.rs"]
 mod random;
+#[path = "paper_001/reference.rs"]
+mod reference_file;
 #[path = "paper_001/simulation.rs"]
 mod simulation;
 
@@ -161,6 +163,7 @@ fn conditions_of_the_example_have_the_reference_ranks() {
 #[test]
 fn the_example_has_the_unique_matrices_of_the_reference() {
     let reference = &reference()["reference"];
+    let limit = reference_file::allowed("matrix_rel");
     let design = paper_design(Order::Full);
     verified(&design);
     for (name, key) in [
@@ -182,18 +185,18 @@ fn the_example_has_the_unique_matrices_of_the_reference() {
         ("Q2", "Q2"),
     ] {
         // B~2 vanishes and has no entries above rounding
-        close(design.matrix(name).unwrap(), &matrix(&reference[key]), 1e-9, name);
+        close(design.matrix(name).unwrap(), &matrix(&reference[key]), limit, name);
     }
     let at = coordinates(&example(), &Tolerance::default()).unwrap();
     let pair = paper_reduction(&at, &Tolerance::default()).unwrap();
     for (name, value, key) in [("R1", &pair.R1, "R1"), ("R2", &pair.R2, "R2"), ("R3", &pair.R3, "R3")] {
-        close(value, &matrix(&reference[key]), 1e-9, name);
+        close(value, &matrix(&reference[key]), limit, name);
     }
     // of L only L (I - W2 W2+) is determined
     let W2 = matrix(&reference["W2"]);
     let free = DMatrix::identity(3, 3) - &W2 * matrix(&reference["W2p"]);
     let (ours, theirs) = (design.matrix("L").unwrap() * &free, matrix(&reference["L"]) * &free);
-    close(&ours, &theirs, 1e-9, "L (I - W2 W2+)");
+    close(&ours, &theirs, limit, "L (I - W2 W2+)");
     close(design.matrix("L").unwrap(), &ours, 1e-12, "ours has no share that has no effect");
 }
 
@@ -204,7 +207,9 @@ fn spectrum_and_transfer_function_are_unique() {
     let design = paper_design(Order::Full);
     let expected = poles(&unique["eig_H"]);
     let distance = spectral_distance(&design.verification.spectrum, &expected);
-    assert!(distance < 1e-9, "spectrum off by {distance:.2e}");
+    let largest = expected.iter().map(|z| z.norm()).fold(0.0, f64::max);
+    let limit = reference_file::allowed("eig_rel_single_output") * largest;
+    assert!(distance < limit, "spectrum off by {distance:.2e}");
     let placement = design.synthesis.placement().unwrap();
     assert_eq!(placement.fixed_modes, poles(&unique["fixed_unobservable_modes"]), "nothing is fixed");
     assert_eq!(placement.gain.ncols() as u64, unique["n_compressed_outputs"].as_u64().unwrap(), "one output");
@@ -212,10 +217,14 @@ fn spectrum_and_transfer_function_are_unique() {
         complex_matrix(&unique["tf_xhat_from_u_y_at_1_3j"]),
         complex_matrix(&unique["tf_dhat_from_u_y_at_1_3j"]),
     );
+    assert_eq!(unique["tf_unique"], true, "whatever the coordinates");
     let check = |observer: &LinearObserver, what: &str| {
         let value = transfer(observer, Complex64::new(0.0, 1.3));
-        let off = (value.rows(0, 4) - &expected.0).norm() + (value.rows(4, 1) - &expected.1).norm();
-        assert!(off < 1e-9, "{what}: transfer function off by {off:.2e}");
+        for (value, expected) in [(value.rows(0, 4), &expected.0), (value.rows(4, 1), &expected.1)] {
+            let off = (value - expected).norm() / expected.norm();
+            let limit = reference_file::allowed("tf_rel");
+            assert!(off < limit, "{what}: transfer function off by {off:.2e}");
+        }
     };
     check(&design.observer, "identity coordinates");
     // a combination of the equations makes E dense in rows, so that singular value coordinates are used
@@ -237,6 +246,7 @@ fn spectrum_and_transfer_function_are_unique() {
 fn everything_printed_agrees_except_the_sign_in_g() {
     let reference = reference();
     let printed = &reference["printed"];
+    let limit = reference_file::allowed("matrix_rel");
     let design = paper_design(Order::Full);
     for (name, key) in [
         ("A_tilde", "At"),
@@ -252,7 +262,7 @@ fn everything_printed_agrees_except_the_sign_in_g() {
         ("Q1", "Q1"),
         ("Q2", "Q2"),
     ] {
-        close(design.matrix(name).unwrap(), &matrix(&printed[key]), 1e-9, name);
+        close(design.matrix(name).unwrap(), &matrix(&printed[key]), limit, name);
     }
     let at = coordinates(&example(), &Tolerance::default()).unwrap();
     assert_eq!((&at.A3, &at.B2), (&matrix(&printed["A3"]), &matrix(&printed["B2"])), "A3 and B2");
@@ -264,11 +274,11 @@ fn everything_printed_agrees_except_the_sign_in_g() {
     let W1 = at.differential() * P.columns(1, 2);
     let W2 = at.measured() * P.columns(1, 2);
     let W2_pinv = pseudo_inverse(&W2, &Tolerance::default()).unwrap();
-    close(&W2_pinv, &matrix(&printed["W2p"]), 1e-9, "W2+");
-    close(&(W1 * &W2_pinv), design.matrix("W1W2_pinv").unwrap(), 1e-9, "W1 W2+ does not depend on P");
+    close(&W2_pinv, &matrix(&printed["W2p"]), limit, "W2+");
+    close(&(W1 * &W2_pinv), design.matrix("W1W2_pinv").unwrap(), limit, "W1 W2+ does not depend on P");
     // the printed L is one of a family
     let free = DMatrix::identity(3, 3) - W2 * W2_pinv;
-    close(&(matrix(&printed["L"]) * free), design.matrix("L").unwrap(), 1e-9, "L (I - W2 W2+)");
+    close(&(matrix(&printed["L"]) * free), design.matrix("L").unwrap(), limit, "L (I - W2 W2+)");
 
     // ERRATUM(001, section III): the algebraic row A3 x1 + A4 x2 + B2 u + D2 d must vanish for every z
     let x2 = design.matrix("K").unwrap().rows(2, 2).into_owned();
@@ -309,13 +319,36 @@ fn the_observer_is_unbiased_for_every_unknown_input() {
 }
 
 #[test]
-fn the_general_form_places_the_same_poles_without_the_first_condition() {
+fn the_general_form_places_the_same_poles() {
     let design = paper_design(Order::General);
     verified(&design);
     assert!(design.title.contains("general form"), "{}", design.title);
     let expected = [-1.0, -2.0].map(Complex64::from);
     let distance = spectral_distance(&design.verification.spectrum, &expected);
     assert!(distance < 1e-9, "spectrum off by {distance:.2e}");
+}
+
+/// n = m and p = 0 in the paper's letters: square, and without unknown inputs, so that W2 has no columns.
+const SQUARE_AND_QUIET: random::Size = random::Size { e: 4, n: 4, r: 3, k: 1, q: 0, p: 2 };
+
+#[test]
+fn complex_poles_are_placed_also_where_nothing_is_unknown() {
+    let wide_and_quiet = random::Size { n: 5, ..SQUARE_AND_QUIET };
+    for (i, size) in [SQUARE_AND_QUIET, wide_and_quiet, random::SIZES[1]].iter().enumerate() {
+        let system = random::planted(size, &[], 500 + i as u64);
+        let wished = [(-1.0, 2.0), (-1.0, -2.0), (-3.0, 0.0)].map(|(re, im)| Complex64::new(re, im));
+        for order in [Order::Full, Order::General] {
+            let choice = DesignChoice { order, poles: wished.to_vec(), ..DesignChoice::default() };
+            let design = designed(&system, &choice).unwrap();
+            verified(&design);
+            assert_eq!(design.observer.n_estimated_inputs(), size.q, "{size:?}: no estimate of nothing");
+            let off = spectral_distance(&design.verification.spectrum, &wished);
+            let limit = reference_file::allowed("eig_rel_multi_output") * 5.0_f64.sqrt();
+            assert!(off < limit, "{size:?} {order:?}: spectrum off by {off:.1e}");
+            let (x, d) = bias(&system, &design.observer, Complex64::new(0.4, 1.1));
+            assert!(x < 1e-9 && d < 1e-9, "{size:?} {order:?}: biased by {x:.1e}, {d:.1e}");
+        }
+    }
 }
 
 #[test]

@@ -2,7 +2,9 @@
 #![cfg(not(target_arch = "wasm32"))]
 #![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail by panicking")]
 
-use descry::document::{EntryMatrix, FreeData, Matrix, PlantData, read_document, write_document};
+use descry::document::{
+    EntryMatrix, FreeData, Matrix, PlantData, UncertaintyData, read_document, write_document,
+};
 use descry::numerics::{Complex64, Watch, spectral_distance};
 use descry::observer::{Method, Order};
 use descry::session::{
@@ -134,7 +136,7 @@ fn the_feedback_follows_the_states_and_signals_wait() {
     assert_eq!(feedback(&session).shape(), (1, 4), "and back");
     assert_eq!(data(&session).signals.len(), 2, "the second signal waits");
     let notes = analysis(&session).simulation.unwrap().notes;
-    assert!(notes.iter().any(|note| note.contains("the others wait")), "it is told: {notes:?}");
+    assert!(notes.iter().any(|note| note.contains("the other waits")), "it is told: {notes:?}");
     // a square system has no free states; what drove them waits
     edit(&mut session, Edit::Size { of: Size::States, grow: false });
     let squared = analysis(&session);
@@ -180,6 +182,7 @@ fn a_square_system_becomes_rectangular_by_its_equations() {
 #[test]
 fn equations_that_are_too_many_give_a_sentence_for_every_method() {
     for key in ["proportional-integral", "discrete", "input-in-constraint"] {
+        let (mut refused, mut asked) = (0, 0);
         let mut session = opened(key);
         edit(&mut session, Edit::Size { of: Size::Equations, grow: true });
         let last = session.document().system().unwrap().n_equations() - 1;
@@ -190,10 +193,12 @@ fn equations_that_are_too_many_give_a_sentence_for_every_method() {
                 edit(&mut session, Edit::Method(method));
                 edit(&mut session, Edit::Order(order));
                 let found = analysis(&session);
+                asked += 1;
                 let said = match (&found.assessment, &found.simulation) {
                     (Err(why), _) | (_, Err(why)) => why.clone(),
                     (Ok(_), Ok(_)) => continue,
                 };
+                refused += 1;
                 let panics = ["panicked", "unwrap", "index out of"];
                 assert!(
                     said.len() > 20 && !panics.iter().any(|word| said.contains(word)),
@@ -201,7 +206,64 @@ fn equations_that_are_too_many_give_a_sentence_for_every_method() {
                 );
             }
         }
+        assert_eq!(refused, asked, "{key}: one equation is too many, whatever the method");
     }
+}
+
+/// x1' = -x1 + x2 + d, 0 = x1 + d, everything measured: square, and x2 is free.
+fn square_with_a_free_state() -> Session {
+    let mut session = opened("input-in-constraint");
+    while session.document().system().unwrap().n_states() > 2 {
+        edit(&mut session, Edit::Size { of: Size::States, grow: false });
+    }
+    let system = session.document().system().unwrap();
+    let wanted = [
+        (Matrix::E, dmatrix![1.0, 0.0; 0.0, 0.0]),
+        (Matrix::A, dmatrix![-1.0, 1.0; 1.0, 0.0]),
+        (Matrix::D, dmatrix![1.0; 1.0]),
+    ];
+    assert_eq!((system.E.shape(), system.D.ncols()), ((2, 2), 1), "two equations, two states");
+    for (matrix, values) in wanted {
+        for row in 0..2 {
+            for column in 0..values.ncols() {
+                let cell = Cell { matrix, row, column };
+                edit(&mut session, Edit::Cell { cell, text: values[(row, column)].to_string() });
+            }
+        }
+    }
+    session
+}
+
+#[test]
+fn a_square_plant_with_a_free_state_is_driven_like_a_wide_one() {
+    let mut session = square_with_a_free_state();
+    let found = analysis(&session);
+    let report = found.free.unwrap();
+    assert_eq!((report.n_free, report.constrained), (1, 1), "{report:?}");
+    assert_eq!(report.directions, ["v1 = x2"], "in words");
+    assert!(found.simulation.is_ok(), "{:?}", found.simulation.err());
+    free(&mut session, FreeEdit::Signal { index: 0, text: text("sin(t)") });
+    assert!(analysis(&session).simulation.is_ok(), "driven");
+    // 0 = x1 + x2 + d determines x2
+    let cell = Cell { matrix: Matrix::A, row: 1, column: 1 };
+    edit(&mut session, Edit::Cell { cell, text: text("1") });
+    let found = analysis(&session);
+    assert!(found.free.is_none() && found.simulation.is_ok(), "of index 1: it runs as it is");
+}
+
+#[test]
+fn bounded_is_the_linear_part_where_there_is_more() {
+    let session = wide();
+    assert!(!report(&session).linear_part, "linear and certain");
+    let mut document = session.document().clone();
+    let mut uncertain = |amplitude: f64| {
+        let of = |x: f64| EntryMatrix::from_matrix(&DMatrix::from_element(3, 4, x));
+        document.scenario.uncertainty =
+            Some(UncertaintyData { amplitude: of(amplitude), frequency: of(1.0), scale: 1.0 });
+        analyse(&document, &Watch::none()).unwrap().free.unwrap()
+    };
+    assert!(!uncertain(0.0).linear_part, "nothing varies");
+    assert!(uncertain(0.1).linear_part, "what varies does not belong to the modes");
 }
 
 #[test]

@@ -43,7 +43,7 @@ export default async ({ step, open }) => {
   await step('a misprint of the paper stands beside the matrix that it concerns', async () => {
     const [page] = await wide(open);
     const matrix = await seen(page, /: G( =|$)/);
-    const fold = await seen(page, /: Misprints beside G( =|$)/);
+    const fold = await seen(page, /: Errata beside G( =|$)/);
     const text = await seen(page, /Misprint, section III, d_hat: printed "G = \[5\/3 4\/3\]".*\[0 16\/3\] with \+4\/3/);
     const next = await seen(page, /: Q1( =|$)/);
     assert.ok(matrix < fold && fold < text && text < next, `in this order: ${[matrix, fold, text, next]}`);

@@ -1,11 +1,11 @@
-//! `errata`: the misprints of the papers.
+//! `errata`: misprints, omissions and mistakes of the papers.
 
 use super::{Answer, Refusal};
 use crate::document::nearest;
 use crate::document::report::errata_report;
 use crate::paper::{Erratum, errata, papers_with_errata};
 
-/// Lists the misprints of one paper, or of all.
+/// Lists those of one paper, or of all.
 pub(super) fn list(paper: Option<&str>) -> Result<Answer, Refusal> {
     let papers = papers_with_errata();
     if let Some(unknown) = paper.filter(|paper| !papers.contains(paper)) {

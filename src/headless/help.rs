@@ -21,7 +21,7 @@ usage:
                                            writes ID.svg and ID.csv for each figure, lists them as JSON
   descry examples                          lists the examples
   descry examples KEY [--out FILE]         writes an example out, to start from
-  descry errata [PAPER]                    lists the misprints of the papers (000 to 004) with their proofs, as JSON
+  descry errata [PAPER]                    lists misprints, omissions and mistakes of the papers (000 to 004) with proofs, as JSON
   descry help, --help, --version
 
 FILE is a document; `-` reads standard input, `example:KEY` takes an example.

@@ -81,7 +81,7 @@ pub enum Request {
         /// File to write to; standard output without.
         out: Option<PathBuf>,
     },
-    /// The misprints of the paper with this key; of all papers without.
+    /// The errata of the paper with this key; of all papers without.
     Errata(Option<String>),
     /// How to use the commands.
     Help,

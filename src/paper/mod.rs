@@ -16,7 +16,7 @@ mod standard_trade_off;
 
 pub use compute::{compute_figure, compute_network_figure};
 pub use errata::{
-    Erratum, GUARANTEE, OBSERVER, PrintedMatrix, Shown, UNCERTAINTY, errata, paper_examples,
+    Erratum, ErratumKind, GUARANTEE, OBSERVER, PrintedMatrix, Shown, UNCERTAINTY, errata, paper_examples,
     papers_with_errata, printed,
 };
 pub use figure::{Axis, FigureSpec, Panel, Role, Series};

@@ -5,10 +5,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::document::Document;
 use crate::numerics::{Complex64, StabilityRegion};
-use crate::simulation::{BoundingFeedback, WidePlant};
+use crate::simulation::{BoundingFeedback, FeedbackError, WidePlant};
 use crate::system::{Model, TimeDomain};
 
-/// The free states of a plant whose equations are not as many as its states.
+/// The free states of a plant that does not run as it is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FreeReport {
     /// How many variables are free.
@@ -21,6 +21,8 @@ pub struct FreeReport {
     pub modes: Result<Vec<Complex64>, String>,
     /// Those of them that are not stable.
     pub unstable: Vec<Complex64>,
+    /// Whether there is more to the plant than what has these modes: a nonlinearity or uncertain entries.
+    pub linear_part: bool,
     /// A feedback that keeps the plant bounded, or why there is none or no need for one.
     pub bounding: Result<BoundingFeedback, String>,
     /// What simulations remark of the free states: the same in a sentence.
@@ -28,16 +30,22 @@ pub struct FreeReport {
 }
 
 impl FreeReport {
-    /// Reports on the plant of a document; `None` for a square plant, which has no free states, and for equations that
-    /// contradict each other, of which the simulation says more.
+    /// Reports on the plant of a document; `None` for one that runs as it is, which has no free states, and for equations
+    /// that contradict each other, of which the simulation says more.
     pub(super) fn new(document: &Document, model: &Model) -> Option<Self> {
         let system = &model.system;
-        if system.E.is_square() {
-            return None;
-        }
         let tolerance = &document.tolerance;
         let x0 = DVector::zeros(system.n_states());
-        let wide = WidePlant::new(model, &x0, &DVector::zeros(system.n_inputs()), tolerance).ok()?;
+        let wide = WidePlant::needed(model, &x0, &DVector::zeros(system.n_inputs()), tolerance).ok()??;
+        let uncertainty = document.scenario.uncertainty.as_ref();
+        let uncertain = uncertainty
+            .is_some_and(|data| data.scale != 0.0 && data.amplitude.values().iter().any(|x| *x != 0.0));
+        let in_words = |error: FeedbackError| match error {
+            FeedbackError::BoundedAlready { modes, linear_part } => {
+                FeedbackError::BoundedAlready { modes, linear_part: linear_part || uncertain }.to_string()
+            }
+            other => other.to_string(),
+        };
         let modes = wide
             .motion(model, &document.scenario.free.values(), tolerance)
             .and_then(|motion| {
@@ -57,7 +65,8 @@ impl FreeReport {
             constrained: wide.constrained,
             modes: modes.map(|(modes, _)| modes),
             unstable,
-            bounding: wide.bounding_feedback(model, tolerance).map_err(|error| error.to_string()),
+            linear_part: model.lipschitz.is_some() || uncertain,
+            bounding: wide.bounding_feedback(model, tolerance).map_err(in_words),
             remark: wide.remark(),
         })
     }

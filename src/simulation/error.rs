@@ -33,6 +33,17 @@ pub enum SimulationError {
         /// Largest entry of what is left of them at the start.
         residual: f64,
     },
+    /// Uncertain entries in equations that repeat others.
+    #[error(
+        "the uncertainty of {entry} makes {equations} contradict the equations that it follows from. Take {entry} out of \
+         the uncertainty, or remove the repetition"
+    )]
+    UncertainRepeats {
+        /// The equations that repeat others, as text.
+        equations: String,
+        /// An entry of `A` that makes them differ.
+        entry: String,
+    },
     /// A feedback that leaves the free variables undetermined.
     #[error(
         "the feedback of the free variables cancels them: with v = v0 - K x the algebraic equations determine the states no \

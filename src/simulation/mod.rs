@@ -23,7 +23,9 @@ mod trade_off;
 mod trajectory;
 mod uncertainty;
 mod wide;
+mod wide_directions;
 mod wide_feedback;
+mod wide_repeats;
 mod wide_run;
 
 pub use crate::numerics::integrate::{Signals, Silence};

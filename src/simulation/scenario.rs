@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 
 use super::{
-    FreeVariables, Inputs, Observed, Plant, SimulationError, Span, Trajectory, Uncertainty,
+    FreeVariables, Inputs, Observed, Plant, SimulationError, Span, Trajectory, Uncertainty, WidePlant,
     simulate_observed, wide_run,
 };
 use crate::expression::MAX_JUMPS;
@@ -37,8 +37,8 @@ pub struct Scenario {
 impl Scenario {
     /// Simulates a plant of any shape with the observers beside it; `watch` can cancel it.
     ///
-    /// A plant with as many equations as states has to be of index 1 and has no free variables; any other is completed
-    /// as [`WidePlant`](super::WidePlant) says. What is free and what is corrected stands in the trajectory's remarks.
+    /// A plant with as many equations as states and of index 1 has no free variables; any other is completed as
+    /// [`WidePlant`] says. What is free, what is corrected and what repeats stands in the trajectory's remarks.
     ///
     /// # Errors
     /// As [`simulate_observed`]; [`SimulationError::Overdetermined`] for equations that contradict what is given.
@@ -49,11 +49,13 @@ impl Scenario {
         tolerance: &Tolerance,
         watch: &Watch,
     ) -> Result<Trajectory, SimulationError> {
-        if model.system.E.is_square() {
-            let given = model.system.n_unknown_inputs();
-            return self.run_with(model, observers, (given, &[]), tolerance, watch);
+        let mut u0 = DVector::zeros(model.system.n_inputs());
+        values(&self.u, 0.0, u0.as_mut_slice());
+        if let Some(wide) = WidePlant::needed(model, &self.x0, &u0, tolerance)? {
+            return wide_run::run(self, model, &wide, observers, tolerance, watch);
         }
-        wide_run::run(self, model, observers, tolerance, watch)
+        let given = model.system.n_unknown_inputs();
+        self.run_with(model, observers, (given, &[]), tolerance, watch)
     }
 
     /// Simulates a square plant whose unknown inputs are `given` signals of the scenario and, behind them, `more`.

@@ -3,13 +3,13 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{SimulationError, Uncertainty};
+use super::wide_directions::{canonical, combination};
+use super::wide_repeats::{Repeats, violation};
+use super::{Plant, SimulationError, Uncertainty};
 use crate::expression::Expression;
 use crate::numerics::Block::{Of, Zero};
-use crate::numerics::{
-    NumericsError, Tolerance, block_matrix, null_space, rank, side_by_side, stack, subspaces,
-};
-use crate::observer::input_decoupled::{Coordinates, coordinates};
+use crate::numerics::{Tolerance, block_matrix, null_space, rank, side_by_side, stack, subspaces};
+use crate::observer::input_decoupled::coordinates;
 use crate::system::{DescriptorSystem, LipschitzError, LipschitzTerm, Model, Signal, nonlinearity};
 
 /// What drives the states that a plant's equations leave free.
@@ -42,7 +42,8 @@ pub struct FreeVariables {
 /// 0 = (W' + feedback) x - v0         W = orthonormal basis of the free directions, in x
 /// 0 = R' (d_given - d)               R = orthonormal basis of ker M
 /// ```
-/// so that a plant of any shape runs through the same integrators as a square one.
+/// so that a plant of any shape runs through the same integrators as a square one. Equations that repeat others, of which
+/// some combination vanishes in `[E A B D]`, are left out before.
 ///
 /// # Source
 /// Paper 001, system (2), whose free states the paper does not simulate.
@@ -56,17 +57,43 @@ pub struct WidePlant {
     unconstrained: DMatrix<f64>,
     /// Size of the plant's own equations, to which those that are added are scaled.
     scale: f64,
+    /// Equations that are left out.
+    pub(super) repeats: Repeats,
 }
 
 impl WidePlant {
+    /// The completion that a plant needs to run; `None` for one that runs as it is: square and of index 1.
+    ///
+    /// # Errors
+    /// [`SimulationError::NotIndexOne`] for a square plant that is not of index 1 and that no completion helps: its
+    /// equations tie differential states. Else as [`Self::new`].
+    pub fn needed(
+        model: &Model,
+        x0: &DVector<f64>,
+        u0: &DVector<f64>,
+        tolerance: &Tolerance,
+    ) -> Result<Option<Self>, SimulationError> {
+        if !model.system.E.is_square() {
+            return Self::new(model, x0, u0, tolerance).map(Some);
+        }
+        match Plant::of(model, None, tolerance) {
+            Err(refused @ SimulationError::NotIndexOne { .. }) => {
+                Self::new(model, x0, u0, tolerance).map(Some).map_err(|_unsolved| refused)
+            }
+            Err(other) => Err(other),
+            Ok(_) => Ok(None),
+        }
+    }
+
     /// Splits what the equations determine from what is free.
     ///
     /// # Tolerance
-    /// Ranks of `E`, `A4` and `M`, the latter two relative to the norm of `[A D; C F]`.
+    /// Ranks of `E`, `A4` and `M`, the latter two relative to the norm of `[A D]`: outputs do not move a plant.
     ///
     /// # Errors
-    /// [`SimulationError::Overdetermined`] when `[A4 D2]` has no full row rank, with the violation for the initial state
-    /// `x0` and the known input `u0` at the start; [`SimulationError::System`] for a malformed system.
+    /// [`SimulationError::Overdetermined`] when `[A4 D2]` has no full row rank and the equations that are too many do not
+    /// repeat others, with the violation for the initial state `x0` and the known input `u0` at the start;
+    /// [`SimulationError::System`] for a malformed system.
     pub fn new(
         model: &Model,
         x0: &DVector<f64>,
@@ -75,25 +102,31 @@ impl WidePlant {
     ) -> Result<Self, SimulationError> {
         let system = model.system.clone().checked()?;
         let at = coordinates(&system, tolerance)?;
-        let of_a4 = subspaces(&at.A4, at.scale, tolerance)?;
-        let Zt = of_a4.left_null.transpose();
-        let M = &Zt * &at.D2;
-        let found = rank(&M, at.scale, tolerance)?.rank;
-        if found < M.nrows() {
-            let residual = violation(model, &at, (x0, u0), tolerance)?;
-            return Err(SimulationError::Overdetermined {
-                combinations: M.nrows() - found,
-                algebraic: at.M2.nrows(),
-                residual,
-            });
+        let repeats = Repeats::of(model, &at, tolerance)?;
+        if let Some(split) = Self::split(&repeats.left_out(model), tolerance)? {
+            return Ok(Self { repeats, ..split });
         }
+        let (combinations, residual) = violation(model, &at, (x0, u0), tolerance)?;
+        Err(SimulationError::Overdetermined { combinations, algebraic: at.M2.nrows(), residual })
+    }
+
+    /// The split of a plant without repeated equations; `None` when `[A4 D2]` has no full row rank.
+    fn split(model: &Model, tolerance: &Tolerance) -> Result<Option<Self>, SimulationError> {
+        let system = &model.system;
+        let at = coordinates(system, tolerance)?;
         let size = side_by_side(&[&system.A, &system.D]).norm();
-        Ok(Self {
+        let of_a4 = subspaces(&at.A4, size, tolerance)?;
+        let M = of_a4.left_null.transpose() * &at.D2;
+        if rank(&M, size, tolerance)?.rank < M.nrows() {
+            return Ok(None);
+        }
+        Ok(Some(Self {
             directions: canonical(&(&at.N2 * of_a4.null)),
             constrained: M.nrows(),
-            unconstrained: null_space(&M, at.scale, tolerance)?,
+            unconstrained: null_space(&M, size, tolerance)?,
             scale: if size > 0.0 { size } else { 1.0 },
-        })
+            repeats: Repeats::default(),
+        }))
     }
 
     /// Number of free variables.
@@ -122,6 +155,7 @@ impl WidePlant {
     /// [`SimulationError::Shape`] and [`SimulationError::NotFinite`] for a feedback that does not fit,
     /// [`SimulationError::Lipschitz`] for a nonlinearity.
     pub(super) fn completed(&self, model: &Model, free: &FreeVariables) -> Result<Model, SimulationError> {
+        let model = &self.repeats.left_out(model);
         let DescriptorSystem { time, E, A, B, C, D, F } = &model.system;
         let (e, n, q, k) = (E.nrows(), E.ncols(), D.ncols(), B.ncols());
         let (nv, nd) = (self.n_free(), self.unconstrained.ncols());
@@ -158,9 +192,9 @@ impl WidePlant {
     pub(super) fn uncertain(&self, given: &Uncertainty) -> Uncertainty {
         let (rows, columns) = (self.n_free() + self.unconstrained.ncols(), self.unconstrained.nrows());
         let padded = |m: &DMatrix<f64>| {
-            let mut all = DMatrix::zeros(m.nrows() + rows, m.ncols() + columns);
-            all.view_mut((0, 0), m.shape()).copy_from(m);
-            all
+            let kept = self.repeats.rows_left_out(m);
+            let shape = (kept.nrows() + rows, kept.ncols() + columns);
+            kept.resize(shape.0, shape.1, 0.0)
         };
         Uncertainty {
             amplitude: padded(&given.amplitude),
@@ -187,26 +221,6 @@ fn fitted(feedback: &DMatrix<f64>, needed: (usize, usize)) -> Result<DMatrix<f64
     Ok(feedback.clone().resize(needed.0, needed.1, 0.0))
 }
 
-/// A linear combination of states in words: `0.7071 x3 - 0.7071 x4`, `-x2`.
-fn combination(coefficients: impl Iterator<Item = f64>) -> String {
-    const NOTHING: f64 = 1e-9;
-    let mut text = String::new();
-    for (j, x) in coefficients.enumerate().filter(|(_, x)| x.abs() > NOTHING) {
-        text.push_str(match (text.is_empty(), x < 0.0) {
-            (true, false) => "",
-            (true, true) => "-",
-            (false, false) => " + ",
-            (false, true) => " - ",
-        });
-        let size = format!("{:.4}", x.abs());
-        if size != "1.0000" {
-            text.extend([size.as_str(), " "]);
-        }
-        text.extend(["x", &(j + 1).to_string()]);
-    }
-    text
-}
-
 /// A nonlinearity of the plant as one of the completed plant, in the same states by name.
 fn widened(term: &LipschitzTerm, rows: usize, columns: usize) -> Result<LipschitzTerm, LipschitzError> {
     let states = term.F_L.ncols() + columns;
@@ -226,64 +240,10 @@ fn widened(term: &LipschitzTerm, rows: usize, columns: usize) -> Result<Lipschit
     })
 }
 
-/// The largest entry of the algebraic equations that contain neither `x2` nor `d`, at the start.
-fn violation(
-    model: &Model,
-    at: &Coordinates,
-    (x0, u0): (&DVector<f64>, &DVector<f64>),
-    tolerance: &Tolerance,
-) -> Result<f64, NumericsError> {
-    let rest = subspaces(&at.algebraic(), at.scale, tolerance)?.left_null;
-    if x0.len() != at.N1.nrows() || u0.len() != at.B2.ncols() {
-        return Ok(f64::NAN);
-    }
-    let x1 = &at.M1 * &model.system.E * x0;
-    let mut left = &at.A3 * x1 + &at.B2 * u0;
-    if let Some(term) = model.lipschitz.as_ref().filter(|term| term.G.nrows() == at.M2.ncols()) {
-        left += &at.M2 * &term.G * term.value(0.0, x0);
-    }
-    Ok(rest.tr_mul(&left).iter().fold(0.0, |largest: f64, x| largest.max(x.abs())))
-}
-
-/// Two diagonal entries of a projector closer than this count as equal, so that rounding does not choose between them.
-const TIE: f64 = 1e-9;
-
-/// The orthonormal basis of the same space that does not depend on the one that is given.
-///
-/// The projection of the coordinate that lies closest to the space (the first of equals) is one, with a positive entry
-/// there; then the same with what is left. They are sorted by these coordinates, so that a new state behind the others
-/// adds its direction behind theirs.
-fn canonical(basis: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut projector = basis * basis.transpose();
-    let mut found = Vec::new();
-    for _ in 0..basis.ncols() {
-        let largest = projector.diagonal().iter().fold(0.0, |l: f64, x| l.max(*x));
-        let Some(pivot) = projector.diagonal().iter().position(|x| *x >= largest - TIE) else { break };
-        let direction = projector.column(pivot) / largest.sqrt().max(f64::MIN_POSITIVE);
-        let direction = direction.normalize();
-        projector -= &direction * direction.transpose();
-        found.push((pivot, direction));
-    }
-    found.sort_by_key(|(pivot, _)| *pivot);
-    let columns: Vec<DVector<f64>> = found.into_iter().map(|(_, direction)| direction).collect();
-    if columns.is_empty() { DMatrix::zeros(basis.nrows(), 0) } else { DMatrix::from_columns(&columns) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::{dmatrix, dvector};
-
-    #[test]
-    fn free_directions_do_not_depend_on_the_basis() {
-        let basis = dmatrix![0.0, 0.0; 0.6, 0.0; 0.0, 1.0; -0.8, 0.0];
-        let (s, c) = (0.7_f64.sin(), 0.7_f64.cos());
-        let turned = &basis * dmatrix![c, s; s, -c];
-        let (one, other) = (canonical(&basis), canonical(&turned));
-        assert!((&one - &other).norm() < 1e-15, "{one}{other}");
-        assert_eq!(one.column(0).into_owned(), dvector![0.0, 0.0, 1.0, 0.0], "x3 itself is free");
-        assert!(one[(3, 1)] > 0.0, "the largest entry is positive: {one}");
-    }
+    use nalgebra::dmatrix;
 
     fn model(E: DMatrix<f64>, A: DMatrix<f64>, D: DMatrix<f64>) -> Model {
         let (e, n, q) = (E.nrows(), E.ncols(), D.ncols());
@@ -333,18 +293,6 @@ mod tests {
         assert_eq!((combinations, algebraic), (1, 2), "one of two equations is too many");
         // the difference of both rows, normalised: (1 + 2) x1 / sqrt 2
         assert!((residual - 3.0 / 2.0_f64.sqrt()).abs() < 1e-14, "violated by {residual}");
-    }
-
-    #[test]
-    fn combinations_read_as_they_are_written() {
-        let words = |x: &[f64]| combination(x.iter().copied());
-        assert_eq!(
-            words(&[0.0, 0.0, 0.5_f64.sqrt(), -0.5_f64.sqrt()]),
-            "0.7071 x3 - 0.7071 x4",
-            "a difference"
-        );
-        assert_eq!(words(&[0.0, 1.0]), "x2", "a state itself");
-        assert_eq!(words(&[-1.0, 0.25, 1e-12]), "-x1 + 0.2500 x2", "rounding is not shown");
     }
 
     #[test]

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{FreeVariables, SimulationError, WidePlant};
 use crate::numerics::{
     Complex64, NumericsError, PlacementError, PlacementOptions, StabilityRegion, Tolerance, eigenvalues,
-    observable_quotient, place_observer, pseudo_inverse, rank,
+    observable_quotient, place_observer, pseudo_inverse, rank, side_by_side,
 };
 use crate::observer::input_decoupled::coordinates;
 use crate::observer::show;
@@ -49,8 +49,10 @@ impl FreeMotion {
 pub struct BoundingFeedback {
     /// `K` of `v = v0 - K x`, free variables x n.
     pub feedback: DMatrix<f64>,
-    /// The modes that it gives the plant.
+    /// The modes that it gives the plant, computed from the plant with the feedback as it is rounded.
     pub modes: Vec<Complex64>,
+    /// What a person must know: that the modes are not quite those that were asked for.
+    pub warning: Option<String>,
 }
 
 /// Why there is no such feedback, or no need for one.
@@ -60,10 +62,16 @@ pub enum FeedbackError {
     #[error("the equations leave no state free: nothing can be fed back")]
     NothingFree,
     /// The plant is bounded as it is.
-    #[error("the plant is bounded without feedback: its modes are {}", listed(modes))]
+    #[error(
+        "{} is bounded without feedback: its modes are {}",
+        if *linear_part { "the linear part of the plant" } else { "the plant" },
+        listed(modes)
+    )]
     BoundedAlready {
         /// Its modes.
         modes: Vec<Complex64>,
+        /// Whether there is more to the plant than what has these modes: a nonlinearity or uncertain entries.
+        linear_part: bool,
     },
     /// A mode that is not stable and that no free variable reaches.
     #[error(
@@ -81,6 +89,16 @@ pub enum FeedbackError {
     TooLarge {
         /// How many there are.
         found: usize,
+    },
+    /// The gain does not do what it should.
+    #[error(
+        "the feedback that was found leaves the modes {} of the plant, which are not all stable: they depend too strongly on \
+         its last digits. Type a feedback, or scale the states",
+        listed(modes)
+    )]
+    Inaccurate {
+        /// The modes of the plant with it.
+        modes: Vec<Complex64>,
     },
     /// No gain was found.
     #[error("no feedback was found: {0}")]
@@ -117,7 +135,8 @@ impl WidePlant {
         let linear = Model::from(model.system.clone());
         let completed = self.completed(&linear, free)?.system;
         let at = coordinates(&completed, tolerance)?;
-        let algebraic = rank(&at.A4, at.scale, tolerance)?;
+        let size = side_by_side(&[&completed.A, &completed.D]).norm();
+        let algebraic = rank(&at.A4, size, tolerance)?;
         if algebraic.rank < at.A4.ncols() {
             return Err(SimulationError::FreeFeedback);
         }
@@ -137,7 +156,8 @@ impl WidePlant {
     /// ```text
     /// eig(A - B K1) = stable modes of A + proposed ones,   K = K1 S
     /// ```
-    /// Proposed are pairs `s (-1 +- i)`, as fast as the fastest mode that is not stable (one for a plant of integrators).
+    /// Proposed are pairs `s (-1 +- i)`, as fast as the fastest mode that is not stable; `s = 1` for integrators, whose computed
+    /// modes are rounding.
     ///
     /// # Errors
     /// When it is not needed, or not possible, and why.
@@ -157,7 +177,8 @@ impl WidePlant {
         };
         let modes = motion.modes()?;
         if unstable(&modes).is_empty() {
-            return Err(FeedbackError::BoundedAlready { modes });
+            let linear_part = model.lipschitz.is_some();
+            return Err(FeedbackError::BoundedAlready { modes, linear_part });
         }
         let found = motion.A.nrows();
         if found > MOST_FED_BACK {
@@ -172,19 +193,45 @@ impl WidePlant {
         let movable = eigenvalues(&reached.basis.tr_mul(&(&dual * &reached.basis)))?;
         let moved = unstable(&movable);
         let stay = movable.iter().copied().filter(|mode| region.contains(*mode, margin));
-        let poles: Vec<Complex64> = stay.chain(proposed(&moved, region)).collect();
+        // the size of the data in units of s
+        let size = model.system.A.norm() / model.system.E.norm().max(f64::MIN_POSITIVE);
+        let poles: Vec<Complex64> = stay.chain(proposed(&moved, region, size)).collect();
         // a first feedback need not be the best conditioned one
         let options = PlacementOptions { starts: 4, sweeps: 4, ..PlacementOptions::default() };
         let placed = place_observer(&dual, &inputs, &poles, &options, tolerance)?;
-        let modes = poles.into_iter().chain(reached.fixed_modes).collect();
-        Ok(BoundingFeedback { feedback: placed.gain.transpose() * motion.S, modes })
+        let gain = placed.gain.transpose();
+        let modes = eigenvalues(&(&motion.A - &motion.B * &gain))?;
+        if !unstable(&modes).is_empty() {
+            return Err(FeedbackError::Inaccurate { modes });
+        }
+        let warning = missed(&poles, &modes, placed.relative_error);
+        Ok(BoundingFeedback { feedback: gain * motion.S, modes, warning })
     }
 }
 
-/// As many stable poles as there are modes to be moved, all different.
-fn proposed(moved: &[Complex64], region: StabilityRegion) -> Vec<Complex64> {
+/// What is said of modes that are not those that were asked for, or that cannot be computed; `None` when they are.
+fn missed(asked: &[Complex64], found: &[Complex64], relative_error: Option<f64>) -> Option<String> {
+    if relative_error.is_some_and(|error| error <= NOTICEABLE) {
+        return None;
+    }
+    Some(format!(
+        "the modes depend strongly on the last digits of this feedback: asked for {}, found {}",
+        listed(asked),
+        listed(found)
+    ))
+}
+
+/// Relative distance of the modes from those that were asked for above which it is said.
+const NOTICEABLE: f64 = 1e-3;
+
+/// As many stable poles as there are modes to be moved, all different; `size` is that of the plant in units of `s`.
+fn proposed(moved: &[Complex64], region: StabilityRegion, size: f64) -> Vec<Complex64> {
+    // a chain of k integrators is computed to the k-th root of rounding; longer ones are rare
+    const LONGEST: usize = 4;
+    let chain = moved.len().clamp(2, LONGEST) as f64;
+    let rounding = f64::EPSILON.powf(chain.recip()) * size.max(f64::MIN_POSITIVE);
     let fastest = moved.iter().map(|mode| mode.norm()).fold(0.0, f64::max);
-    let speed = if fastest > 0.0 { fastest } else { 1.0 };
+    let speed = if fastest > rounding { fastest } else { 1.0 };
     let pair = |k: usize| match region {
         StabilityRegion::LeftHalfPlane => Complex64::new(-1.0, 1.0) * speed * (1.0 + 0.5 * k as f64),
         StabilityRegion::UnitDisk => Complex64::new(0.5, 0.5) * 0.8_f64.powf(k as f64),
@@ -197,120 +244,5 @@ fn proposed(moved: &[Complex64], region: StabilityRegion) -> Vec<Complex64> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::numerics::spectral_distance;
-    use crate::system::DescriptorSystem;
-    use nalgebra::{DVector, dmatrix};
-
-    fn model(time: TimeDomain, E: DMatrix<f64>, A: DMatrix<f64>, D: DMatrix<f64>) -> Model {
-        let (e, n, q) = (E.nrows(), E.ncols(), D.ncols());
-        let system = DescriptorSystem {
-            time,
-            E,
-            A,
-            B: DMatrix::zeros(e, 0),
-            C: DMatrix::identity(n, n),
-            D,
-            F: DMatrix::zeros(n, q),
-        };
-        system.checked().unwrap().into()
-    }
-
-    fn wide(model: &Model) -> WidePlant {
-        let x0 = DVector::zeros(model.system.n_states());
-        WidePlant::new(model, &x0, &DVector::zeros(0), &Tolerance::default()).unwrap()
-    }
-
-    fn bounded(model: &Model) -> Result<BoundingFeedback, FeedbackError> {
-        wide(model).bounding_feedback(model, &Tolerance::default())
-    }
-
-    /// The modes of the plant with a feedback.
-    fn modes(model: &Model, feedback: DMatrix<f64>) -> Vec<Complex64> {
-        let free = FreeVariables { signals: Vec::new(), feedback: Some(feedback) };
-        wide(model).motion(model, &free, &Tolerance::default()).unwrap().modes().unwrap()
-    }
-
-    /// Random plants; the modes are those of the plant with its feedback, found without the formulas above.
-    #[test]
-    fn a_bounding_feedback_gives_the_modes_that_it_names() {
-        let mut random = crate::numerics::Random::new(5);
-        for time in [TimeDomain::Continuous, TimeDomain::Discrete] {
-            for (e, n, q) in [(3, 4, 1), (2, 5, 0), (4, 6, 2), (1, 3, 0), (5, 6, 0)] {
-                let mut fill = |rows, columns| DMatrix::from_fn(rows, columns, |_, _| random.normal());
-                let mut E = fill(e, n);
-                if e > 2 {
-                    E.row_mut(e - 1).fill(0.0);
-                }
-                let plant = model(time, E, 3.0 * fill(e, n), fill(e, q));
-                let found = match bounded(&plant) {
-                    Ok(found) => found,
-                    Err(FeedbackError::BoundedAlready { .. }) => continue,
-                    Err(error) => panic!("{e} x {n}: {error}"),
-                };
-                let region = StabilityRegion::of(time == TimeDomain::Discrete);
-                assert!(found.modes.iter().all(|z| region.contains(*z, 0.0)), "stable: {:?}", found.modes);
-                let off = spectral_distance(&modes(&plant, found.feedback.clone()), &found.modes);
-                assert!(off < 1e-6, "{time:?} {e} x {n}: modes off by {off:.1e}, {}", found.feedback);
-            }
-        }
-    }
-
-    #[test]
-    fn stable_modes_stay_and_are_not_made_fast() {
-        // x1' = -100 x1 + x3, x2' = 2 x2 + x3, x3 free
-        let plant = model(
-            TimeDomain::Continuous,
-            dmatrix![1.0, 0.0, 0.0; 0.0, 1.0, 0.0],
-            dmatrix![-100.0, 0.0, 1.0; 0.0, 2.0, 1.0],
-            DMatrix::zeros(2, 0),
-        );
-        let found = bounded(&plant).unwrap();
-        let off = spectral_distance(&found.modes, &[-100.0, -2.0].map(Complex64::from));
-        assert!(off < 1e-9, "{:?}", found.modes);
-        assert!(found.feedback[(0, 0)].abs() < 1e-9, "what is stable is not fed back: {}", found.feedback);
-    }
-
-    #[test]
-    fn modes_out_of_reach_are_named() {
-        // x1' = x1 whatever x2 does
-        let plant = |pole: f64| {
-            let E = dmatrix![1.0, 0.0, 0.0; 0.0, 1.0, 0.0];
-            model(TimeDomain::Continuous, E, dmatrix![pole, 0.0, 0.0; 0.0, 3.0, 1.0], DMatrix::zeros(2, 0))
-        };
-        let error = bounded(&plant(1.0)).unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            "the free variables do not reach the mode 1 of the plant, which is not stable: no feedback of them keeps it \
-             bounded"
-        );
-        let found = bounded(&plant(-1.0)).unwrap();
-        assert!(found.modes.contains(&Complex64::from(-1.0)), "a stable one may stay: {:?}", found.modes);
-    }
-
-    #[test]
-    fn what_needs_no_feedback_says_so() {
-        let plant =
-            model(TimeDomain::Continuous, dmatrix![1.0, 0.0], dmatrix![-2.0, 1.0], DMatrix::zeros(1, 0));
-        let error = bounded(&plant).unwrap_err();
-        assert_eq!(error.to_string(), "the plant is bounded without feedback: its modes are -2");
-        let square = model(TimeDomain::Continuous, dmatrix![1.0], dmatrix![2.0], DMatrix::zeros(1, 0));
-        assert_eq!(bounded(&square).unwrap_err(), FeedbackError::NothingFree, "x' = 2 x");
-    }
-
-    #[test]
-    fn an_unknown_input_that_the_equations_fix_belongs_to_the_modes() {
-        // x1' = 3 x1 + x2 + d, 0 = x1 + d: d = -x1, so that x1' = 2 x1 + x2
-        let plant = model(
-            TimeDomain::Continuous,
-            dmatrix![1.0, 0.0; 0.0, 0.0],
-            dmatrix![3.0, 1.0; 1.0, 0.0],
-            dmatrix![1.0; 1.0],
-        );
-        let open = wide(&plant).motion(&plant, &FreeVariables::default(), &Tolerance::default()).unwrap();
-        assert!((open.A[(0, 0)].abs() - 2.0).abs() < 1e-14, "{}", open.A);
-        let found = bounded(&plant).unwrap();
-        assert!((modes(&plant, found.feedback)[0] + 2.0).norm() < 1e-12, "moved to -2");
-    }
-}
+#[path = "wide_feedback_tests.rs"]
+mod tests;

@@ -4,19 +4,19 @@ use nalgebra::{DMatrix, DVector};
 
 use super::joint::check;
 use super::run::check_vector;
-use super::scenario::values;
 use super::{
-    FreeVariables, InitialState, Observed, ObserverTrajectory, Scenario, SimulationError, Trajectory,
+    FreeVariables, InitialState, Observed, ObserverTrajectory, Plant, Scenario, SimulationError, Trajectory,
     WidePlant,
 };
 use crate::numerics::{Tolerance, Watch, stack};
 use crate::observer::{Injection, LinearObserver};
 use crate::system::Model;
 
-/// Simulates a scenario of a plant whose equations are not as many as its states.
+/// Simulates a scenario of a plant that does not run as it is.
 pub(super) fn run(
     scenario: &Scenario,
     model: &Model,
+    wide: &WidePlant,
     observers: &[Observed<'_>],
     tolerance: &Tolerance,
     watch: &Watch,
@@ -28,11 +28,8 @@ pub(super) fn run(
         check(i, observed.observer, system)?;
     }
     if let Some(uncertainty) = &scenario.uncertainty {
-        uncertainty.varying(&system.A)?;
+        wide.repeats.check(uncertainty, &system.A)?;
     }
-    let mut u0 = DVector::zeros(system.n_inputs());
-    values(&scenario.u, 0.0, u0.as_mut_slice());
-    let wide = WidePlant::new(model, &scenario.x0, &u0, tolerance)?;
     let completed = wide.completed(model, &scenario.free)?;
     let extended: Vec<(LinearObserver, Option<Injection>)> =
         observers.iter().map(|observed| estimating_both(observed, q)).collect();
@@ -49,15 +46,20 @@ pub(super) fn run(
         ..scenario.clone()
     };
     let found = square.run_with(&completed, &extended, (q, &scenario.free.signals), tolerance, watch);
-    let mut trajectory = found.map_err(|error| match error {
-        // the completed plant is of index 1 unless the feedback spoils it
-        SimulationError::NotIndexOne { .. } if scenario.free.feedback.is_some() => {
-            SimulationError::FreeFeedback
+    let found = match found {
+        Err(refused @ SimulationError::NotIndexOne { .. }) if scenario.free.feedback.is_some() => {
+            // does the feedback spoil what is of index 1 without it?
+            let without = wide.completed(model, &FreeVariables::default())?;
+            let spoilt = Plant::of(&without, None, tolerance).is_ok();
+            return Err(if spoilt { SimulationError::FreeFeedback } else { refused });
         }
-        other => other,
-    })?;
-    trajectory.remarks.extend(remarks(&wide, &scenario.free, &trajectory, n));
-    Ok(separated(trajectory, observers, n))
+        other => other?,
+    };
+    let corrected = (found.x.rows(n, q) - found.d.rows(0, q)).iter().fold(0.0, |l: f64, x| l.max(x.abs()));
+    let mut trajectory = separated(found, observers, n);
+    trajectory.remarks.extend(remarks(wide, &scenario.free, corrected));
+    trajectory.remarks.extend(wide.repeats.remark(system, &trajectory));
+    Ok(trajectory)
 }
 
 /// The observer as an estimator of `[x; d]`; zeros where it does not estimate `d`.
@@ -85,28 +87,33 @@ fn estimating_both(observed: &Observed<'_>, q: usize) -> (LinearObserver, Option
 }
 
 /// What a person should know: the free variables, and unknown inputs that are not as given.
-fn remarks(wide: &WidePlant, free: &FreeVariables, trajectory: &Trajectory, n: usize) -> Vec<String> {
+fn remarks(wide: &WidePlant, free: &FreeVariables, corrected: f64) -> Vec<String> {
     let mut remarks: Vec<String> = wide.remark().into_iter().collect();
     let rows = free.feedback.as_ref().map_or(0, DMatrix::nrows);
-    for (given, what) in [(free.signals.len(), "signals"), (rows, "rows of the feedback")] {
-        if given > wide.n_free() {
-            let count = wide.n_free();
-            remarks.push(format!(
-                "of {given} {what} for free variables the first {count} count, the others wait"
-            ));
-        }
-    }
+    remarks.extend(waiting(free.signals.len(), ["signal", "signals"], wide.n_free()));
+    remarks.extend(waiting(rows, ["row of the feedback", "rows of the feedback"], wide.n_free()));
     if wide.constrained > 0 {
-        let q = trajectory.x.nrows() - n;
-        let change = trajectory.x.rows(n, q) - trajectory.d.rows(0, q);
-        let largest = change.iter().fold(0.0, |l: f64, x| l.max(x.abs()));
         remarks.push(format!(
             "the algebraic equations determine {} of the unknown inputs (as combinations): d is corrected by up to \
-             {largest:.4e} so that they hold",
+             {corrected:.4e} so that they hold",
             wide.constrained
         ));
     }
     remarks
+}
+
+/// That of `given` signals or rows for `free` variables some wait; `None` when all count.
+fn waiting(given: usize, [one, many]: [&str; 2], free: usize) -> Option<String> {
+    if given <= free {
+        return None;
+    }
+    let (what, wait) = if given == 1 { (one, "waits") } else { (many, "wait") };
+    if free == 0 {
+        return Some(format!("{given} {what} for free variables {wait}: the equations leave none free"));
+    }
+    let first = if free == 1 { "the first counts".to_owned() } else { format!("the first {free} count") };
+    let others = if given - free == 1 { "the other waits" } else { "the others wait" };
+    Some(format!("of {given} {what} for free variables {first}, {others}"))
 }
 
 /// The trajectory of `x` and `d` from that of the completed plant's state `[x; d]`.
@@ -129,5 +136,20 @@ fn separated(found: Trajectory, observers: &[Observed<'_>], n: usize) -> Traject
         x,
         d,
         ..found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_waits_is_counted_in_words() {
+        let signals = |given, free| waiting(given, ["signal", "signals"], free);
+        assert_eq!(signals(1, 1), None, "all count");
+        let said = |given, free| signals(given, free).unwrap();
+        assert_eq!(said(1, 0), "1 signal for free variables waits: the equations leave none free");
+        assert_eq!(said(2, 1), "of 2 signals for free variables the first counts, the other waits");
+        assert_eq!(said(4, 2), "of 4 signals for free variables the first 2 count, the others wait");
     }
 }

@@ -116,3 +116,15 @@ pub(crate) fn without_a1(seed: u64) -> DescriptorSystem {
     blocks.d[(5, 0)] = 2.0 * blocks.d[(4, 0)];
     blocks.mixed(&mut random)
 }
+
+/// A random plant with an equation that follows from two others, so that (A1) fails.
+pub(crate) fn twice(seed: u64) -> DescriptorSystem {
+    let mut random = Random::new(2000 + seed);
+    let size = Size { e: 6, n: 6, r: 3, k: 1, q: 1, p: 3 };
+    let mut blocks = Blocks::random(size, &mut random);
+    for matrix in [&mut blocks.a, &mut blocks.b, &mut blocks.d] {
+        let combination = 2.0 * matrix.row(3) - 0.5 * matrix.row(4);
+        matrix.row_mut(5).copy_from(&combination);
+    }
+    blocks.mixed(&mut random)
+}

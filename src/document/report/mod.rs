@@ -123,7 +123,7 @@ pub fn comparison_report(document: &Document, comparison: &Comparison) -> String
     pretty(&Value::Object(map))
 }
 
-/// Report of `descry errata`: misprints with what proves them.
+/// Report of `descry errata`: misprints, omissions and mistakes with what proves them.
 pub fn errata_report(found: &[&Erratum]) -> String {
     let listed: Vec<Value> = found.iter().map(|erratum| errata::erratum(erratum)).collect();
     pretty(&json!({ "descry_report": REPORT_VERSION, "command": "errata", "errata": listed }))

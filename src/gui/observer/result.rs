@@ -100,7 +100,7 @@ fn named_matrix(ui: &mut Ui, document: &Document, shown: Shown, matrix: &NamedMa
     if large {
         folded_entries(ui, matrix);
     } else {
-        shown_entries(ui, shown.method, matrix);
+        shown_entries(ui, shown, matrix);
     }
     let place = (letter(matrix), subsystem(document, matrix));
     errata::beside(ui, shown, place, &matrix.name);
@@ -130,8 +130,11 @@ fn folded_entries(ui: &mut Ui, matrix: &NamedMatrix) {
         });
 }
 
-fn shown_entries(ui: &mut Ui, method: Method, matrix: &NamedMatrix) {
-    let known = printed(method.paper(), letter(matrix), &matrix.value);
+fn shown_entries(ui: &mut Ui, shown: Shown, matrix: &NamedMatrix) {
+    let known = shown
+        .example
+        .filter(|paper| *paper == shown.method.paper())
+        .and_then(|paper| printed(paper, letter(matrix), &matrix.value));
     egui::ScrollArea::horizontal().id_salt(("named", &matrix.name)).auto_shrink([false, true]).show(
         ui,
         |ui| match known {

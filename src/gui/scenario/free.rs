@@ -17,6 +17,9 @@ use crate::system::Signal;
 /// Feedbacks of more states than this are edited in the document.
 const LARGEST_GRID: usize = 20;
 
+/// Said while signals or a feedback are there and no state is free.
+const NOTHING_FREE: &str = "Signals and feedback of free states wait: the equations determine every state.";
+
 /// Draws what is free; nothing for a plant whose equations determine everything.
 pub(super) fn show(
     ui: &mut Ui,
@@ -28,16 +31,17 @@ pub(super) fn show(
     let document = session.document();
     let free = &document.scenario.free;
     let sizes = Sizes::of(document);
-    if sizes.equations == sizes.states {
-        if *free != FreeData::default() {
-            formula::remark(
-                ui,
-                "Signals and feedback of free states wait: as many equations as states leave none.",
-            );
+    let Some(analysis) = derived.analysis() else { return };
+    let waits = *free != FreeData::default();
+    let Some(report) = analysis.free.as_ref() else {
+        if waits && sizes.equations == sizes.states {
+            formula::remark(ui, NOTHING_FREE);
         }
         return;
+    };
+    if waits && report.n_free == 0 {
+        formula::remark(ui, NOTHING_FREE);
     }
-    let Some(report) = derived.analysis().and_then(|analysis| analysis.free.as_ref()) else { return };
     if report.n_free > 0 {
         ui.horizontal_wrapped(|ui| {
             ui.label(RichText::new(count(report.n_free)).strong()).on_hover_text(
@@ -124,9 +128,12 @@ fn feedback_line(ui: &mut Ui, free: &FreeData, report: &FreeReport, states: usiz
         let button = egui::Button::new("Keep the plant bounded");
         match &report.bounding {
             Ok(found) => {
-                let hint = format!("Gives the plant the modes {}", list(&found.modes));
+                let hint = format!("Gives {} the modes {}", subject(report), list(&found.modes));
                 if ui.add(button).on_hover_text(hint).clicked() {
                     out.edit(Edit::Free(FreeEdit::Feedback(Some(found.feedback.clone()))));
+                }
+                if let Some(warning) = &found.warning {
+                    ui.label(RichText::new(warning).small().color(theme::near(ui)));
                 }
             }
             Err(why) => {
@@ -167,19 +174,25 @@ fn grid(
     }
 }
 
+/// What has the modes: the plant, or what of it is linear and certain.
+fn subject(report: &FreeReport) -> &'static str {
+    if report.linear_part { "the linear part of the plant" } else { "the plant" }
+}
+
 /// The modes of the plant, and whether it grows.
 fn modes(ui: &mut Ui, report: &FreeReport) {
+    let subject = subject(report).replacen('t', "T", 1);
     match &report.modes {
         Ok(modes) if modes.is_empty() => {}
         Ok(modes) if report.unstable.is_empty() => {
-            formula::remark(ui, &format!("The plant stays bounded: its modes are {}.", list(modes)));
+            formula::remark(ui, &format!("{subject} stays bounded: its modes are {}.", list(modes)));
         }
         Ok(modes) => {
             let (all, growing) = (list(modes), list(&report.unstable));
             let text = if modes.len() == report.unstable.len() {
-                format!("The plant may grow: its modes {all} do not decay.")
+                format!("{subject} may grow: its modes {all} do not decay.")
             } else {
-                format!("The plant may grow: of its modes {all} not all decay ({growing}).")
+                format!("{subject} may grow: of its modes {all} not all decay ({growing}).")
             };
             ui.label(RichText::new(text).small().color(theme::near(ui)));
         }

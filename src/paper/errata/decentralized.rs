@@ -1,11 +1,12 @@
 //! Misprints of paper 000.
 
-use super::Erratum;
+use super::{Erratum, ErratumKind};
 
 /// In the order of its pages.
 pub(super) const ERRATA: [Erratum; 20] = [
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "section III",
         concerns: "000-partition",
         printed: "v_i as a row",
@@ -15,6 +16,7 @@ pub(super) const ERRATA: [Erratum; 20] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Mistake,
         place: "Remark 1",
         concerns: "000-A1",
         printed: "D_i1: the part of D_i with full column rank",
@@ -24,6 +26,7 @@ pub(super) const ERRATA: [Erratum; 20] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "Remark 2",
         concerns: "000-A1",
         printed: "Phi_i = 0",
@@ -33,6 +36,7 @@ pub(super) const ERRATA: [Erratum; 20] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "Proposition 1, ii and v",
         concerns: "observer",
         printed: "A_i",
@@ -42,6 +46,7 @@ pub(super) const ERRATA: [Erratum; 20] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Omission,
         place: "Proposition 1",
         concerns: "000-detectable",
         printed: "the title says existence",
@@ -51,6 +56,7 @@ pub(super) const ERRATA: [Erratum; 20] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "before (23)",
         concerns: "R; 000-R",
         printed: "rank Sigma_i = n_ii",
@@ -59,6 +65,7 @@ pub(super) const ERRATA: [Erratum; 20] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "definition of Omega_i",
         concerns: "P",
         printed: "Omega_i in R^((n_i + r_phi_i + m_i) x n_i)",
@@ -67,6 +74,7 @@ pub(super) const ERRATA: [Erratum; 20] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "definition of Delta_Psi",
         concerns: "T",
         printed: "Omega Omega^+",
@@ -76,6 +84,7 @@ pub(super) const ERRATA: [Erratum; 20] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "(34)",
         concerns: "guarantee",
         printed: "(2,4)",
@@ -85,6 +94,7 @@ pub(super) const ERRATA: [Erratum; 20] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Omission,
         place: "Definition of gamma",
         concerns: "guarantee",
         printed: "||e|| < gamma ||v2||",
@@ -94,6 +104,7 @@ pub(super) const ERRATA: [Erratum; 20] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "Theorem 2",
         concerns: "guarantee",
         printed: "there exist X_di > 0 and Omega_Yi, without Z_i; block (1,4) has Omega_Yii",
@@ -103,6 +114,7 @@ pub(super) const ERRATA: [Erratum; 20] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Mistake,
         place: "section IV, orders",
         concerns: "R; 000-R",
         printed: "reduced order n_i - m_i, minimal order n_i - r_phi_i - m_i",
@@ -112,6 +124,7 @@ pub(super) const ERRATA: [Erratum; 20] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "section V, Y_1",
         concerns: "P",
         printed: "Y_1 is 1 x 5, Z_i is 3 x 5",
@@ -120,6 +133,7 @@ pub(super) const ERRATA: [Erratum; 20] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "section V, last entry of Y_1",
         concerns: "N of subsystem 1",
         printed: "0- 0.27",
@@ -128,6 +142,7 @@ pub(super) const ERRATA: [Erratum; 20] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::NotUnique,
         place: "section V, Z_i",
         concerns: "P",
         printed: "-222.04",
@@ -136,6 +151,7 @@ pub(super) const ERRATA: [Erratum; 20] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "section V, Q_1 Phi_1 B_1",
         concerns: "Q of subsystem 1",
         printed: "10^-12 [111 111 0; -5 -5 0; -222 -222 0]",
@@ -145,6 +161,7 @@ pub(super) const ERRATA: [Erratum; 20] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "section V, F_1",
         concerns: "F of subsystem 1",
         printed: "[0.66 0.33; -0.33 0.33], 2 x 2",
@@ -154,6 +171,7 @@ pub(super) const ERRATA: [Erratum; 20] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Omission,
         place: "section V, gamma",
         concerns: "guarantee",
         printed: "X_1 = 1.3705 and X_2 = 2.3705 without the gamma that they belong to",
@@ -163,6 +181,7 @@ pub(super) const ERRATA: [Erratum; 20] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Omission,
         place: "section V, time domain and inputs",
         concerns: "fig1; fig2; fig3; fig4",
         printed: "neither the time domain nor the inputs and initial states of the figures",
@@ -172,6 +191,7 @@ pub(super) const ERRATA: [Erratum; 20] = [
     },
     Erratum {
         paper: "000",
+        kind: ErratumKind::Misprint,
         place: "Figures 2 and 4",
         concerns: "fig2; fig4",
         printed: "the text has e = x_hat - x",

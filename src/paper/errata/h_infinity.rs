@@ -1,11 +1,12 @@
 //! Misprints of paper 002; where the text of its web edition, copied, says other than its formulas may show, the entry says so.
 
-use super::Erratum;
+use super::{Erratum, ErratumKind};
 
 /// In the order of its pages.
 pub(super) const ERRATA: [Erratum; 14] = [
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "(5)",
         concerns: "observer",
         printed: "f(t, F_L, x_hat, u), in the copied text",
@@ -15,6 +16,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "(12)",
         concerns: "guarantee",
         printed: "D = [phi1; phi2], in the italic letter of system (1)",
@@ -23,6 +25,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "(13)",
         concerns: "guarantee",
         printed: "E' Y = Y', E >= 0, in the copied text",
@@ -33,6 +36,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "(14), (22) and Remark 7",
         concerns: "002-lipschitz",
         printed: "lambda_1^2; in the result of Remark 7 mu lambda_1 F_L' F_L, without the square",
@@ -42,6 +46,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "(18), (25)",
         concerns: "guarantee",
         printed: "eps as the vector of the error system",
@@ -50,6 +55,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "(27)",
         concerns: "guarantee",
         printed: "mu lambda^2 xi' rho xi, where rho = blkdiag(0, lambda^2 F_L' F_L)",
@@ -59,6 +65,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "(36)",
         concerns: "guarantee",
         printed: "Y = X E + E_perp' Q, with the italic E of system (1)",
@@ -67,6 +74,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "before (38)",
         concerns: "T",
         printed: "T = T + Psi Phi, in the copied text, which loses the tilde",
@@ -76,6 +84,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "definition of Omega",
         concerns: "P",
         printed: "Omega = [T E; Phi A; C], in the copied text, which loses the tilde",
@@ -85,6 +94,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "(45) and (46)",
         concerns: "002-R",
         printed: "the rows in the order E, C, Phi A, in the copied text",
@@ -94,6 +104,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "(51), Delta_TD",
         concerns: "observer",
         printed: "Delta_TD = -Delta_Psi Lambda Phi D, in the copied text",
@@ -103,6 +114,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "Theorem 10, gamma",
         concerns: "guarantee",
         printed: "scalars mu and gamma such that (52) holds",
@@ -112,6 +124,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "(53), block (1,4)",
         concerns: "guarantee",
         printed: "Q1' Lambda_phi1",
@@ -121,6 +134,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "002",
+        kind: ErratumKind::Misprint,
         place: "section 4",
         concerns: "guarantee",
         printed: "gamma^2 = 9.762",

@@ -1,11 +1,12 @@
 //! Misprints of paper 003.
 
-use super::Erratum;
+use super::{Erratum, ErratumKind};
 
 /// In the order of its pages.
 pub(super) const ERRATA: [Erratum; 12] = [
     Erratum {
         paper: "003",
+        kind: ErratumKind::Misprint,
         place: "Proposition 1",
         concerns: "003-P1-local",
         printed: "(alpha_I - h_i c_L) is Hurwitz",
@@ -15,6 +16,7 @@ pub(super) const ERRATA: [Erratum; 12] = [
     },
     Erratum {
         paper: "003",
+        kind: ErratumKind::Misprint,
         place: "(12)",
         concerns: "alpha_z",
         printed: "sigma_z in R^(N n x nu mu)",
@@ -23,6 +25,7 @@ pub(super) const ERRATA: [Erratum; 12] = [
     },
     Erratum {
         paper: "003",
+        kind: ErratumKind::Misprint,
         place: "(14) and (15)",
         concerns: "gamma_z",
         printed: "output matrices [Psi kron c_G; e_I' kron c_L] and [Psi N kron c_G M; I kron c_L]",
@@ -32,6 +35,7 @@ pub(super) const ERRATA: [Erratum; 12] = [
     },
     Erratum {
         paper: "003",
+        kind: ErratumKind::Misprint,
         place: "Theorem 1, last line of the proof",
         concerns: "observer",
         printed: "X(0) := L [x_G(0)', x_L(0)']'",
@@ -40,6 +44,7 @@ pub(super) const ERRATA: [Erratum; 12] = [
     },
     Erratum {
         paper: "003",
+        kind: ErratumKind::Misprint,
         place: "Theorem 2 (iii)",
         concerns: "003-T2-iii",
         printed: "|Theta_pi| > 2",
@@ -50,6 +55,7 @@ pub(super) const ERRATA: [Erratum; 12] = [
     },
     Erratum {
         paper: "003",
+        kind: ErratumKind::Mistake,
         place: "Theorem 2, proof of (a)",
         concerns: "003-T2-ii",
         printed: "(a_z, c_z) is observable by the definition in (13)",
@@ -60,6 +66,7 @@ pub(super) const ERRATA: [Erratum; 12] = [
     },
     Erratum {
         paper: "003",
+        kind: ErratumKind::Omission,
         place: "Corollary 1, proof",
         concerns: "003-C1-iii",
         printed: "there is a pi with d(pi) = n(pi)",
@@ -68,6 +75,7 @@ pub(super) const ERRATA: [Erratum; 12] = [
     },
     Erratum {
         paper: "003",
+        kind: ErratumKind::Misprint,
         place: "section III, N",
         concerns: "N",
         printed: "N(2,2) = 0.41",
@@ -76,6 +84,7 @@ pub(super) const ERRATA: [Erratum; 12] = [
     },
     Erratum {
         paper: "003",
+        kind: ErratumKind::Misprint,
         place: "section III, M",
         concerns: "M",
         printed: "M has the row [0 0.5] five times",
@@ -84,6 +93,7 @@ pub(super) const ERRATA: [Erratum; 12] = [
     },
     Erratum {
         paper: "003",
+        kind: ErratumKind::Misprint,
         place: "section III, Gamma_nu",
         concerns: "Gamma_nu",
         printed: "Gamma_nu(3,2) = 0.83",
@@ -92,6 +102,7 @@ pub(super) const ERRATA: [Erratum; 12] = [
     },
     Erratum {
         paper: "003",
+        kind: ErratumKind::Mistake,
         place: "section III, rank of the observability matrix",
         concerns: "003-P1-global",
         printed: "we cannot determine whether the state on the fourth subsystem is estimated with usual \
@@ -102,6 +113,7 @@ pub(super) const ERRATA: [Erratum; 12] = [
     },
     Erratum {
         paper: "003",
+        kind: ErratumKind::Misprint,
         place: "Fig. 6, caption",
         concerns: "fig6",
         printed: "states x_1 and x_hat_4",

@@ -1,11 +1,12 @@
 //! Misprints of paper 001, and what it leaves open.
 
-use super::Erratum;
+use super::{Erratum, ErratumKind};
 
 /// In the order of its pages.
 pub(super) const ERRATA: [Erratum; 5] = [
     Erratum {
         paper: "001",
+        kind: ErratumKind::Omission,
         place: "(4)",
         concerns: "A_tilde",
         printed: "A_bar21, A_bar22, D_bar1, C_bar21, C_bar22 and F_bar are used without a definition",
@@ -14,6 +15,7 @@ pub(super) const ERRATA: [Erratum; 5] = [
     },
     Erratum {
         paper: "001",
+        kind: ErratumKind::Omission,
         place: "Theorem 2",
         concerns: "N",
         printed: "N is used without a definition",
@@ -22,6 +24,7 @@ pub(super) const ERRATA: [Erratum; 5] = [
     },
     Erratum {
         paper: "001",
+        kind: ErratumKind::Omission,
         place: "section III, W2+",
         concerns: "W1W2_pinv",
         printed: "W2+ = [-2/3 -1/3 1/3; 1 1 0], without the P that it belongs to",
@@ -30,6 +33,7 @@ pub(super) const ERRATA: [Erratum; 5] = [
     },
     Erratum {
         paper: "001",
+        kind: ErratumKind::NotUnique,
         place: "section III, L",
         concerns: "L",
         printed: "L = [0 6 1; 6 2 0]",
@@ -38,6 +42,7 @@ pub(super) const ERRATA: [Erratum; 5] = [
     },
     Erratum {
         paper: "001",
+        kind: ErratumKind::Misprint,
         place: "section III, d_hat",
         concerns: "G",
         printed: "G = [5/3 4/3]",

@@ -1,4 +1,5 @@
-//! Misprints of the papers, each with the number that proves it.
+//! What of the papers does not read as it should: misprints, omissions, mistakes, and prints that are right but not the only
+//! ones; each with the number that proves it.
 
 mod decentralized;
 mod h_infinity;
@@ -11,11 +12,47 @@ mod shown;
 pub use printed::{PrintedMatrix, printed};
 pub use shown::{GUARANTEE, OBSERVER, Shown, UNCERTAINTY};
 
-/// A misprint.
+/// What is the matter with a print.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ErratumKind {
+    /// A symbol, number or picture that is not what was meant.
+    Misprint,
+    /// Something that is used or needed, and not said.
+    Omission,
+    /// A statement that does not hold.
+    Mistake,
+    /// Right as printed, but others are right as well.
+    NotUnique,
+}
+
+impl ErratumKind {
+    /// The word for it, as on the screen and in reports.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Misprint => "misprint",
+            Self::Omission => "omission",
+            Self::Mistake => "mistake",
+            Self::NotUnique => "not unique",
+        }
+    }
+
+    /// What stands beside the print.
+    pub fn beside(self) -> &'static str {
+        match self {
+            Self::Misprint | Self::Mistake => "correct",
+            Self::Omission => "meant",
+            Self::NotUnique => "right as well",
+        }
+    }
+}
+
+/// A place of a paper that does not read as it should.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Erratum {
     /// Key of the paper.
     pub paper: &'static str,
+    /// What is the matter.
+    pub kind: ErratumKind,
     /// Where it is.
     pub place: &'static str,
     /// What it concerns on screen, see [`Shown`]: the identifier of a condition, the letter of a matrix, that of one
@@ -24,7 +61,7 @@ pub struct Erratum {
     pub concerns: &'static str,
     /// As printed.
     pub printed: &'static str,
-    /// As it should read.
+    /// As it should read; what is right as well for a print that is not unique.
     pub correct: &'static str,
     /// Why: the argument and the number, which `tests/errata` computes.
     pub proof: &'static str,
@@ -53,17 +90,17 @@ impl Erratum {
     }
 }
 
-/// All misprints of a paper.
+/// All errata of a paper.
 pub fn errata(paper: &str) -> impl Iterator<Item = &'static Erratum> {
     ALL.iter().copied().flatten().filter(move |erratum| erratum.paper == paper)
 }
 
-/// Keys of the papers in which misprints were found.
+/// Keys of the papers in which errata were found.
 pub fn papers_with_errata() -> Vec<&'static str> {
     ALL.iter().filter_map(|errata| errata.first()).map(|erratum| erratum.paper).collect()
 }
 
-/// The misprints of every paper that the program implements.
+/// The errata of every paper that the program implements.
 const ALL: [&[Erratum]; 5] = [
     &decentralized::ERRATA,
     &input_decoupled::ERRATA,
@@ -75,6 +112,20 @@ const ALL: [&[Erratum]; 5] = [
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_print_that_is_right_is_called_no_misprint() {
+        let kind = |paper, place: &str| errata(paper).find(|e| e.place == place).map(|e| e.kind);
+        assert_eq!(kind("001", "section III, L"), Some(ErratumKind::NotUnique), "one gain of many");
+        assert_eq!(kind("001", "section III, d_hat"), Some(ErratumKind::Misprint), "a sign");
+        assert_eq!(kind("001", "Theorem 2"), Some(ErratumKind::Omission), "N is not defined");
+        assert_eq!(kind("004", "Theorem 4"), Some(ErratumKind::Omission), "(11) is needed, too");
+        for erratum in ALL.iter().copied().flatten() {
+            let is_right = erratum.kind == ErratumKind::NotUnique;
+            let says_so = erratum.correct.starts_with("any") || erratum.correct == "arbitrary";
+            assert_eq!(is_right, says_so, "{} {}", erratum.paper, erratum.place);
+        }
+    }
 
     #[test]
     fn every_erratum_says_what_is_wrong_and_why() {
@@ -90,10 +141,7 @@ mod tests {
             "the sections of the examples are known"
         );
         for (paper, own) in papers_with_errata().into_iter().zip(ALL) {
-            assert!(
-                own.iter().all(|erratum| erratum.paper == paper),
-                "{paper}: a stranger among its misprints"
-            );
+            assert!(own.iter().all(|erratum| erratum.paper == paper), "{paper}: a stranger among its errata");
             assert_eq!(errata(paper).count(), own.len(), "{paper}: all of them are found");
         }
     }

@@ -1,11 +1,12 @@
 //! Misprints of paper 004.
 
-use super::Erratum;
+use super::{Erratum, ErratumKind};
 
 /// In the order of its pages.
 pub(super) const ERRATA: [Erratum; 14] = [
     Erratum {
         paper: "004",
+        kind: ErratumKind::Misprint,
         place: "after equation (4)",
         concerns: "observer",
         printed: "y in R^(q+m+e-r)",
@@ -15,6 +16,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Misprint,
         place: "equation (5)",
         concerns: "L2",
         printed: "z' = F z + L1 y + L2 y_hat + J u + T1 N f_hat",
@@ -24,6 +26,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Omission,
         place: "Theorem 4",
         concerns: "004-22",
         printed: "(12) and rank E = r",
@@ -33,6 +36,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Misprint,
         place: "Algorithm 1",
         concerns: "T1",
         printed: "[T1 T2] = [E^+]",
@@ -41,6 +45,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Misprint,
         place: "before equation (16)",
         concerns: "004-22",
         printed: "input observable",
@@ -51,6 +56,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Misprint,
         place: "equation (19)",
         concerns: "M1",
         printed: "x_hat = E1^+ x1_hat + P1 x2_hat",
@@ -60,6 +66,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Misprint,
         place: "equations (22), (23) and appendix",
         concerns: "004-23",
         printed: "s I_n in the reduced test",
@@ -68,6 +75,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Misprint,
         place: "Algorithm 2",
         concerns: "Ar",
         printed: "[A1 A2] = A P2",
@@ -77,6 +85,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Mistake,
         place: "section IV, case 1",
         concerns: "uncertainty",
         printed: "A~* = A* (I + Delta A)",
@@ -86,6 +95,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Omission,
         place: "section IV, bounds of the uncertainty",
         concerns: "uncertainty",
         printed: "|delta_ij| < 10",
@@ -95,6 +105,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Misprint,
         place: "section IV, check of (8)",
         concerns: "004-8",
         printed: "rank [E* N*; C* 0] = rank E*",
@@ -104,6 +115,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Mistake,
         place: "section IV, bandwidth",
         concerns: "fig9",
         printed: "the bandwidth of the observer obtained for 0.1 Lambda is less than 3.3 rad/s",
@@ -113,6 +125,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Omission,
         place: "appendix, proof of (12)",
         concerns: "004-10",
         printed: "Re s > 0 and s = 0",
@@ -123,6 +136,7 @@ pub(super) const ERRATA: [Erratum; 14] = [
     },
     Erratum {
         paper: "004",
+        kind: ErratumKind::Mistake,
         place: "appendix, left factor of (13)",
         concerns: "004-13",
         printed: "(8) and (9) suffice for (12) <=> (13)",
