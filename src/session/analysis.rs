@@ -8,6 +8,7 @@ use super::free_report::FreeReport;
 use super::light::lights;
 use crate::document::{Document, Subject};
 use crate::numerics::{Complex64, Watch};
+use crate::observer::hierarchical::Hierarchy;
 use crate::observer::{Assessment, Method, Verdict, assess};
 use crate::paper::{FigureSpec, Motion, standard};
 use crate::system::Model;
@@ -104,7 +105,8 @@ pub fn analyse(document: &Document, watch: &Watch) -> Option<Analysis> {
     }
     let mut properties = properties(system, tolerance);
     if let Some(network) = &model.network {
-        properties.extend(of_network::structure(network, tolerance));
+        let hierarchy = Hierarchy::of(network, tolerance);
+        properties.extend(of_network::structure(network, &hierarchy));
     }
     let plant_eigenvalues =
         finite_eigenvalues(system, tolerance).map(|found| found.values).unwrap_or_default();
