@@ -102,7 +102,7 @@ fn found<'a>(conditions: &'a [Condition], label: &str) -> &'a Condition {
 fn ranks(condition: &Condition) -> Vec<(&RankDecision, usize)> {
     let rank = |e| match e {
         &Evidence::Rank { ref decision, required, .. } => Some((decision, required)),
-        Evidence::Points { .. } => None,
+        Evidence::Points { .. } | Evidence::Sets { .. } => None,
     };
     condition.evidence.iter().filter_map(rank).collect()
 }
@@ -111,7 +111,7 @@ fn ranks(condition: &Condition) -> Vec<(&RankDecision, usize)> {
 fn zeros(condition: &Condition) -> Vec<Complex64> {
     let points = |e: &Evidence| match e {
         Evidence::Points { points, .. } => points.clone(),
-        Evidence::Rank { .. } => Vec::new(),
+        Evidence::Rank { .. } | Evidence::Sets { .. } => Vec::new(),
     };
     let points = condition.evidence.iter().flat_map(points).filter(|p| p.loses_rank);
     points.flat_map(|p| std::iter::repeat_n(p.s, p.multiplicity)).collect()

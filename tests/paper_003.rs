@@ -14,7 +14,8 @@ use descry::numerics::{
 };
 use descry::observer::hierarchical::{
     HierarchicalDesign, HierarchicalObserver, Hierarchy, HierarchyError, LARGEST_COMPOSITE, LocalObserver,
-    MOST_GLOBAL_STATES, composite, conditions, design, design_global, design_local, verify_network,
+    MOST_GLOBAL_STATES, composite, conditions, conditions_for, design, design_global, design_local,
+    verify_network,
 };
 use descry::observer::{Condition, DesignChoice, DesignError, Evidence, Verdict};
 use descry::simulation::{FreeVariables, Scenario, Span, simulate_network};
@@ -30,6 +31,8 @@ mod large;
 #[cfg(not(target_arch = "wasm32"))]
 #[path = "paper_003/random.rs"]
 mod random;
+#[path = "paper_003/verdicts.rs"]
+mod verdicts;
 
 fn tolerance() -> Tolerance {
     Tolerance::default()
@@ -316,11 +319,14 @@ fn lists_of_poles_are_told_apart() {
     let network = network();
     let asked = conditions(&network, &tolerance()).unwrap();
     let short = DesignChoice { local_poles: local_poles()[..3].to_vec(), ..choice() };
-    let error = design(&network, &short, &asked, &tolerance()).unwrap_err();
+    let made = design(&network, &short, &asked, &tolerance()).unwrap();
     assert_eq!(
-        error.to_string(),
-        "poles of the local observer: 3 poles are given, but this design places 5: add 2",
-        "which list"
+        made.observer.left_out,
+        [
+            "no local observer is plugged in: poles of the local observer: 3 poles are given, but this design places 5: \
+             add 2"
+        ],
+        "which list; the global observer stays"
     );
     let few = DesignChoice { poles: real(&[-1.0]), ..choice() };
     let error = design(&network, &few, &asked, &tolerance()).unwrap_err();

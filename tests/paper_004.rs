@@ -179,7 +179,7 @@ fn verdict(system: &DescriptorSystem, order: Order, id: &str) -> Verdict {
 fn ranks(condition: &Condition) -> Vec<(&RankDecision, usize)> {
     let rank = |e| match e {
         &Evidence::Rank { ref decision, required, .. } => Some((decision, required)),
-        Evidence::Points { .. } => None,
+        Evidence::Points { .. } | Evidence::Sets { .. } => None,
     };
     condition.evidence.iter().filter_map(rank).collect()
 }

@@ -4,7 +4,7 @@ use super::commands::{code_of, unverified};
 use super::{Answer, DONE, Format, REFUSED, Refusal};
 use crate::document::report::{design_report, network_check_report, network_motion_report};
 use crate::document::{Document, Sizes, motion_to_csv};
-use crate::observer::{Assessment, Design, assess_network, hierarchical, network_lights};
+use crate::observer::{Assessment, Design, Verdict, assess_network, hierarchical, network_lights};
 use crate::paper::{FigureSpec, Motion, standard_network};
 use crate::simulation::simulate_network;
 use crate::system::Network;
@@ -15,7 +15,8 @@ const MOST_STATES: usize = 500;
 /// Structure, the lights of all methods, and conditions.
 pub(super) fn check(document: &Document, network: &Network) -> Result<Answer, Refusal> {
     let unsuitable = document.design.method.missing_for(network);
-    let found = hierarchical::conditions(network, &document.tolerance).map_err(|error| error.to_string());
+    let found = hierarchical::conditions_for(network, &document.design, &document.tolerance)
+        .map_err(|error| error.to_string());
     let lights = network_lights(network, found.as_deref().map_err(String::as_str), None);
     let conditions = match unsuitable {
         Some(_) => Vec::new(),
@@ -25,7 +26,8 @@ pub(super) fn check(document: &Document, network: &Network) -> Result<Answer, Re
     };
     let mut remarks: Vec<String> = unsuitable.into_iter().collect();
     for condition in conditions.iter().filter(|c| c.needed && !c.verdict.holds()) {
-        remarks.push(format!("condition {} does not hold: {}", condition.label, condition.summary));
+        let what = if condition.verdict == Verdict::Fails { "does not hold" } else { "is not decided" };
+        remarks.push(format!("condition {} {what}: {}", condition.label, condition.summary));
     }
     let code = if remarks.is_empty() { DONE } else { REFUSED };
     Ok(Answer { text: network_check_report(document, network, &lights, &conditions), remarks, code })
@@ -46,7 +48,13 @@ pub(super) fn design(document: &Document, network: &Network) -> Result<Answer, R
 /// The answer of `design`, whatever the plant is.
 pub(super) fn designed(document: &Document, assessment: &Assessment) -> Answer {
     let (remarks, code) = match &assessment.outcome {
-        Ok(design) => (unverified(design), if assessment.verified() { DONE } else { REFUSED }),
+        Ok(design) => {
+            let mut remarks = unverified(design);
+            let left_out = design.hierarchical.as_ref().map_or(&[][..], |observer| &observer.left_out);
+            remarks.extend(left_out.iter().cloned());
+            let complete = assessment.verified() && left_out.is_empty();
+            (remarks, if complete { DONE } else { REFUSED })
+        }
         Err(error) => (vec![error.to_string()], code_of(error)),
     };
     Answer { text: design_report(document, assessment), remarks, code }

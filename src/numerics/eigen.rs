@@ -1,4 +1,4 @@
-//! Eigenvalues of a real square matrix, checked by traces.
+//! Eigenvalues of square matrices, checked by traces.
 
 use nalgebra::DMatrix;
 use num_complex::Complex64;
@@ -36,7 +36,42 @@ pub fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex64>, NumericsErro
     let balanced = balanced(matrix);
     let source = faer::Mat::<f64>::from_fn(n, n, |i, j| balanced[(i, j)]);
     let mut found = source.eigenvalues().map_err(|_no_convergence| unreliable(f64::INFINITY))?;
-    let residual = trace_residual(&balanced, &found);
+    let residual = trace_residual(&balanced.map(Complex64::from), &found);
+    if residual > TRACE_LIMIT {
+        return Err(unreliable(residual));
+    }
+    super::sort_spectrum(&mut found);
+    Ok(found)
+}
+
+/// Eigenvalues of a complex square matrix in the order of [`super::sort_spectrum`], checked as those of [`eigenvalues`].
+///
+/// # Errors
+/// As [`eigenvalues`].
+pub fn complex_eigenvalues(matrix: &DMatrix<Complex64>) -> Result<Vec<Complex64>, NumericsError> {
+    let n = matrix.nrows();
+    if !matrix.is_square() {
+        return Err(NumericsError::Shape {
+            what: "eigenvalues",
+            found: format!("{} x {}", n, matrix.ncols()),
+            needed: "a square matrix".to_owned(),
+        });
+    }
+    if n == 0 {
+        return Ok(Vec::new());
+    }
+    if matrix.iter().any(|z| !z.re.is_finite() || !z.im.is_finite()) {
+        return Err(NumericsError::NotFinite { rows: n, columns: n });
+    }
+    let unreliable = |residual| NumericsError::Unreliable {
+        what: "eigenvalue decomposition",
+        rows: n,
+        columns: n,
+        residual,
+    };
+    let source = faer::Mat::<faer::c64>::from_fn(n, n, |i, j| matrix[(i, j)]);
+    let mut found = source.eigenvalues().map_err(|_no_convergence| unreliable(f64::INFINITY))?;
+    let residual = trace_residual(matrix, &found);
     if residual > TRACE_LIMIT {
         return Err(unreliable(residual));
     }
@@ -47,12 +82,12 @@ pub fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex64>, NumericsErro
 /// Largest relative trace defect that accepted eigenvalues may show.
 const TRACE_LIMIT: f64 = 1e-10;
 
-fn trace_residual(matrix: &DMatrix<f64>, eigenvalues: &[Complex64]) -> f64 {
+fn trace_residual(matrix: &DMatrix<Complex64>, eigenvalues: &[Complex64]) -> f64 {
     let size = matrix.norm().max(f64::MIN_POSITIVE);
     let n = matrix.nrows() as f64;
     let sum: Complex64 = eigenvalues.iter().sum();
     let squares: Complex64 = eigenvalues.iter().map(|z| (z / size) * (z / size)).sum();
-    let normalised = matrix / size;
+    let normalised = matrix.map(|z| z / size);
     let first = (sum - matrix.trace()).norm() / (size * n);
     let second = (squares - (&normalised * &normalised).trace()).norm() / n;
     let worst = first.max(second);
@@ -115,6 +150,21 @@ mod tests {
         let found = eigenvalues(&dmatrix![1.0, 1e12; 1e-12, 2.0]).unwrap();
         let expected = (3.0 - 5.0_f64.sqrt()) / 2.0;
         assert!((found[0].re.min(found[1].re) - expected).abs() < 1e-13, "{found:?}");
+    }
+
+    #[test]
+    fn a_complex_matrix_has_its_own_eigenvalues_and_not_their_conjugates() {
+        let i = Complex64::i();
+        let found =
+            complex_eigenvalues(&dmatrix![2.0 + i, Complex64::from(5.0); Complex64::ZERO, -3.0 * i]).unwrap();
+        for expected in [2.0 + i, -3.0 * i] {
+            assert!(found.iter().any(|z| (z - expected).norm() < 1e-14), "{expected} in {found:?}");
+        }
+        let wrong = DMatrix::<Complex64>::zeros(2, 3);
+        assert!(
+            matches!(complex_eigenvalues(&wrong), Err(NumericsError::Shape { .. })),
+            "2 x 3 is not square"
+        );
     }
 
     #[test]

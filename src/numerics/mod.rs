@@ -20,7 +20,7 @@ mod tolerance;
 mod watch;
 
 pub use block::{Block, block_matrix, side_by_side, stack};
-pub use eigen::eigenvalues;
+pub use eigen::{complex_eigenvalues, eigenvalues};
 pub use error::NumericsError;
 pub use executor::{Executor, Sequential};
 pub use fixed_modes::{ObservableQuotient, PbhMode, observable_quotient, pbh_modes};
@@ -38,6 +38,6 @@ pub use rank::{RankDecision, rank};
 pub use spectrum::{PoleOrPair, conjugate_pairs, matching, sort_spectrum, spectral_distance};
 pub use stability::{ModePosition, StabilityRegion};
 pub use subspace::{Subspaces, null_space, pseudo_inverse, subspaces};
-pub use svd::{Svd, complex_svd, svd};
+pub use svd::{Svd, complex_svd, singular_values, svd};
 pub use tolerance::Tolerance;
 pub use watch::Watch;

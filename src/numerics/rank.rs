@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
-use super::{NumericsError, Tolerance, svd};
+use super::{NumericsError, Tolerance, singular_values};
 
 /// A numerical rank and everything it was decided on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -68,7 +68,7 @@ impl RankDecision {
 /// rounding noise would otherwise get full rank. Pass `0.0` for data as they were given.
 ///
 /// # Errors
-/// As [`svd`].
+/// As [`super::svd`].
 ///
 /// # Examples
 /// ```
@@ -78,7 +78,7 @@ impl RankDecision {
 /// # Ok::<(), descry::numerics::NumericsError>(())
 /// ```
 pub fn rank(matrix: &DMatrix<f64>, scale: f64, tolerance: &Tolerance) -> Result<RankDecision, NumericsError> {
-    Ok(RankDecision::from_singular_values(matrix.shape(), svd(matrix)?.s, scale, tolerance))
+    Ok(RankDecision::from_singular_values(matrix.shape(), singular_values(matrix)?, scale, tolerance))
 }
 
 #[cfg(test)]

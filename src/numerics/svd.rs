@@ -90,6 +90,28 @@ pub fn complex_svd(matrix: &DMatrix<Complex64>) -> Result<Svd<Complex64>, Numeri
     if residual <= RESIDUAL_LIMIT { Ok(result) } else { Err(unreliable(residual)) }
 }
 
+/// The singular values of a real matrix alone, descending.
+///
+/// A matrix with many more rows than columns, or the other way round, is first reduced to the triangular factor of its
+/// QR decomposition, which has the same singular values: no square matrix of its longer side is ever formed.
+///
+/// # Errors
+/// As [`svd`].
+pub fn singular_values(matrix: &DMatrix<f64>) -> Result<Vec<f64>, NumericsError> {
+    /// Up to this many rows and columns a full decomposition costs nothing.
+    const SMALL: usize = 100;
+    let (rows, columns) = matrix.shape();
+    if rows.max(columns) <= SMALL || rows.max(columns) < 2 * rows.min(columns) || matrix.is_empty() {
+        return Ok(svd(matrix)?.s);
+    }
+    if matrix.iter().any(|x| !x.is_finite()) {
+        return Err(NumericsError::NotFinite { rows, columns });
+    }
+    let (scaled, scale) = scaled(matrix);
+    let tall = if rows > columns { scaled } else { scaled.transpose() };
+    Ok(svd(&tall.qr().r())?.s.into_iter().map(|s| s * scale).collect())
+}
+
 /// Scales by a power of two so that squares neither overflow nor vanish.
 fn scaled(matrix: &DMatrix<f64>) -> (DMatrix<f64>, f64) {
     let largest = matrix.amax();
@@ -149,6 +171,18 @@ mod tests {
         for scale in [1e-200, 1e200] {
             let found = svd(&(dmatrix![3.0, 0.0; 0.0, 4.0] * scale)).unwrap();
             assert!((found.s[0] / scale - 4.0).abs() < 1e-14, "scale {scale}: {:?}", found.s);
+        }
+    }
+
+    #[test]
+    fn long_matrices_have_the_singular_values_of_their_triangular_factor() {
+        let tall = DMatrix::from_fn(300, 3, |i, j| ((i + 1) as f64 * (j + 1) as f64).sin());
+        let (all, alone) = (svd(&tall).unwrap().s, singular_values(&tall).unwrap());
+        for (other, found) in
+            [(&tall, &alone), (&tall.transpose(), &singular_values(&tall.transpose()).unwrap())]
+        {
+            let apart = all.iter().zip(found).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(found.len() == 3 && apart < 1e-13, "{:?}: {apart:.1e} apart", other.shape());
         }
     }
 

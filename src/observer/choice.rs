@@ -260,7 +260,7 @@ pub fn conditions(
         Method::HInfinity => h_infinity::conditions(model, choice, tolerance),
         Method::Decentralized => decentralized::conditions(model, choice, tolerance),
         Method::Hierarchical => match &model.network {
-            Some(network) => hierarchical::conditions(network, tolerance),
+            Some(network) => hierarchical::conditions_for(network, choice, tolerance),
             None => Ok(Vec::new()),
         },
     }

@@ -105,6 +105,15 @@ pub enum Evidence {
         /// The points, each with its relative distance `sigma_min` and whether it is in the stable region.
         points: Vec<PointEvidence>,
     },
+    /// Elements, each with the set that belongs to it.
+    Sets {
+        /// What the sets are, in words.
+        of: String,
+        /// Letters of the element, of its set, and of the space that belongs to it.
+        names: [String; 3],
+        /// The elements with their sets.
+        sets: Vec<SetEvidence>,
+    },
 }
 
 impl Evidence {
@@ -127,6 +136,17 @@ pub struct PointEvidence {
     pub loses_rank: bool,
     /// Whether it lies inside the stability region.
     pub stable: bool,
+}
+
+/// An element with the set that belongs to it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SetEvidence {
+    /// The element.
+    pub element: Complex64,
+    /// The members of its set.
+    pub members: Vec<Complex64>,
+    /// Dimension of the space that belongs to it.
+    pub dimension: usize,
 }
 
 /// A direction that shows why a condition fails.

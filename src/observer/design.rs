@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
 use super::hierarchical::HierarchicalObserver;
-use super::{Condition, Injection, LinearObserver, Synthesis, Verification};
+use super::{Condition, Injection, LinearObserver, Synthesis, Verdict, Verification};
 use crate::lmi::Infeasible;
 use crate::numerics::{Complex64, NumericsError, PlacementError};
 
@@ -156,9 +156,14 @@ impl DesignError {
 /// Asks that every needed condition holds.
 ///
 /// # Errors
-/// [`DesignError::Condition`] with the first that does not.
+/// [`DesignError::Condition`] with the first that fails, else [`DesignError::Unsuitable`] with one that is not decided.
 pub(super) fn needed(conditions: &[Condition]) -> Result<(), DesignError> {
-    match conditions.iter().find(|c| c.needed && !c.verdict.holds()) {
+    let missing = || conditions.iter().filter(|c| c.needed && !c.verdict.holds());
+    let failed = missing().find(|c| c.verdict == Verdict::Fails);
+    match failed.or_else(|| missing().next()) {
+        Some(open) if failed.is_none() => {
+            Err(DesignError::Unsuitable(format!("{} is not decided: {}", open.label, open.summary)))
+        }
         Some(failed) => Err(DesignError::Condition {
             id: failed.id.clone(),
             label: failed.label.clone(),

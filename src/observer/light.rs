@@ -140,9 +140,12 @@ fn light(
 fn judged(method: Method, found: &[Condition]) -> MethodLight {
     let light = |light, why: String| MethodLight { method, light, why };
     let needed = || found.iter().filter(|condition| condition.needed);
-    if let Some(failed) = needed().find(|condition| !condition.verdict.holds()) {
+    if let Some(failed) = needed().find(|condition| condition.verdict == Verdict::Fails) {
         let mend = failed.remedies.first().map_or(String::new(), |remedy| format!("\n{remedy}"));
         return light(Light::Fails, format!("{} fails: {}{mend}", called(failed), failed.summary));
+    }
+    if let Some(open) = needed().find(|condition| condition.verdict == Verdict::Undecided) {
+        return light(Light::Missing, format!("{} is not decided: {}", called(open), open.summary));
     }
     match needed().find(|condition| condition.verdict == Verdict::Fragile) {
         Some(near) => {

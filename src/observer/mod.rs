@@ -18,14 +18,16 @@ mod synthesis;
 mod verify;
 
 pub use choice::{Assessment, DesignChoice, Method, Order, assess, assess_knowing, conditions};
-pub use condition::{Condition, Evidence, Formula, FormulaPart, PointEvidence, Verdict, Witness};
+pub use condition::{
+    Condition, Evidence, Formula, FormulaPart, PointEvidence, SetEvidence, Verdict, Witness,
+};
 pub use design::{Claim, Design, DesignError, NamedMatrix, chosen_poles, scaled_pole};
 pub use error_system::{
     ErrorGain, ErrorGains, ErrorStateSpace, ErrorSystemError, error_system, network_error_system,
 };
 pub use light::{Known, Light, MethodLight, lights, network_lights};
 pub use lmi_choice::{GivenObserver, LmiChoice};
-pub use network_choice::assess_network;
+pub use network_choice::{assess_hierarchy, assess_network};
 pub use realization::{Injection, LinearObserver};
 pub use synthesis::{Certificate, LmiResult, Synthesis};
 pub use verify::{Check, Response, Verification, unknown_input_response, verify};

@@ -1,6 +1,6 @@
 //! Choices on networks that are too large to be written as one system.
 
-use super::hierarchical::LARGEST_COMPOSITE;
+use super::hierarchical::{Hierarchy, HierarchyError, LARGEST_COMPOSITE};
 use super::{Assessment, DesignChoice, DesignError, Method, hierarchical};
 use crate::numerics::Tolerance;
 use crate::system::Network;
@@ -32,12 +32,25 @@ pub fn assess_network(
     choice: &DesignChoice,
     tolerance: &Tolerance,
 ) -> Result<Assessment, PropertyError> {
+    assess_hierarchy(network, Hierarchy::of(network, tolerance), choice, tolerance)
+}
+
+/// The same with a representation that is known.
+///
+/// # Errors
+/// As [`assess`](super::assess).
+pub fn assess_hierarchy(
+    network: &Network,
+    hierarchy: Result<Hierarchy, HierarchyError>,
+    choice: &DesignChoice,
+    tolerance: &Tolerance,
+) -> Result<Assessment, PropertyError> {
     let choice = choice.clone();
     if let Some(why) = choice.method.missing_for(network) {
         return Ok(Assessment { choice, conditions: Vec::new(), outcome: Err(DesignError::Unsuitable(why)) });
     }
-    let conditions = hierarchical::conditions(network, tolerance)?;
-    let outcome = hierarchical::design(network, &choice, &conditions, tolerance)
+    let conditions = hierarchical::conditions_of(network, &hierarchy, &choice, tolerance)?;
+    let outcome = hierarchical::design_of(network, hierarchy, &choice, &conditions, tolerance)
         .and_then(|design| design.common(network));
     Ok(Assessment { choice, conditions, outcome })
 }

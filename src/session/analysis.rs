@@ -7,6 +7,7 @@ use super::analysis_properties::properties;
 use super::free_report::FreeReport;
 use crate::document::{Document, Subject};
 use crate::numerics::{Complex64, Watch};
+use crate::observer::hierarchical::Hierarchy;
 use crate::observer::{Assessment, Known, MethodLight, Verdict, lights};
 use crate::paper::{FigureSpec, Motion, standard};
 use crate::simulation::Memo;
@@ -85,7 +86,8 @@ pub(super) fn analyse_with(memo: &mut Memo, document: &Document, watch: &Watch) 
     }
     let mut properties = properties(system, tolerance);
     if let Some(network) = &model.network {
-        properties.extend(of_network::structure(network, tolerance));
+        let hierarchy = Hierarchy::of(network, tolerance);
+        properties.extend(of_network::structure(network, &hierarchy));
     }
     let plant_eigenvalues =
         finite_eigenvalues(system, tolerance).map(|found| found.values).unwrap_or_default();

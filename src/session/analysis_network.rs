@@ -3,8 +3,8 @@
 use super::analysis::{Analysis, Property, Simulation};
 use crate::document::Document;
 use crate::numerics::{Complex64, RankDecision, Tolerance, Watch, eigenvalues, null_space};
-use crate::observer::hierarchical::{Hierarchy, conditions};
-use crate::observer::{Assessment, Condition, Method, Verdict, assess_network, network_lights};
+use crate::observer::hierarchical::{Hierarchy, HierarchyError, conditions_for};
+use crate::observer::{Assessment, Condition, Method, Verdict, assess_hierarchy, network_lights};
 use crate::paper::{Motion, Quantity, standard_network};
 use crate::simulation::simulate_network;
 use crate::system::Network;
@@ -16,17 +16,20 @@ pub(super) fn analyse(document: &Document, network: &Network, watch: &Watch) -> 
         return None;
     }
     let mut properties = vec![sizes(network)];
-    properties.extend(structure(network, tolerance));
-    let plant_eigenvalues = modes(network, tolerance).unwrap_or_default();
+    let hierarchy = Hierarchy::of(network, tolerance);
+    properties.extend(structure(network, &hierarchy));
+    let known = hierarchy.as_ref().ok();
+    let plant_eigenvalues = known.and_then(|known| modes(network, known, tolerance)).unwrap_or_default();
     if !watch.go_on(0.2, "conditions and design") {
         return None;
     }
-    let assessment = assess_network(network, &document.design, tolerance).map_err(|error| error.to_string());
+    let assessment =
+        assess_hierarchy(network, hierarchy, &document.design, tolerance).map_err(|error| error.to_string());
     let chosen = document.design.method == Method::Hierarchical;
     let known = assessment.as_ref().ok().filter(|_| chosen).map(|found| found.conditions.clone());
     let found = match known {
         Some(found) => Ok(found),
-        None => conditions(network, tolerance).map_err(|error| error.to_string()),
+        None => conditions_for(network, &document.design, tolerance).map_err(|error| error.to_string()),
     };
     properties.extend(found.iter().flatten().filter_map(pair));
     let outcome = assessment.as_ref().ok().filter(|_| chosen).map(|found| &found.outcome);
@@ -49,7 +52,7 @@ fn sizes(network: &Network) -> Property {
 }
 
 /// The sizes that decide about the hierarchical observer.
-pub(super) fn structure(network: &Network, tolerance: &Tolerance) -> Vec<Property> {
+pub(super) fn structure(network: &Network, hierarchy: &Result<Hierarchy, HierarchyError>) -> Vec<Property> {
     let (n, size) = (network.a.nrows(), network.n_subsystems());
     let global = network.Psi.nrows() * network.c_G.nrows();
     let outputs = format!(
@@ -58,7 +61,7 @@ pub(super) fn structure(network: &Network, tolerance: &Tolerance) -> Vec<Propert
         network.local.len()
     );
     let mut result = vec![property("Network", format!("N = {size}, n = {n}"), outputs)];
-    match Hierarchy::of(network, tolerance) {
+    match hierarchy {
         Ok(hierarchy) => {
             let (nu, mu) = (hierarchy.N.ncols(), hierarchy.M.ncols());
             let rank = |value: usize, most: usize, decision: &RankDecision| {
@@ -104,8 +107,7 @@ fn pair(condition: &Condition) -> Option<Property> {
 /// ```text
 /// eig A = eig alpha_z, N - nu times eig a_z, N times the rest of eig a_I
 /// ```
-fn modes(network: &Network, tolerance: &Tolerance) -> Option<Vec<Complex64>> {
-    let hierarchy = Hierarchy::of(network, tolerance).ok()?;
+fn modes(network: &Network, hierarchy: &Hierarchy, tolerance: &Tolerance) -> Option<Vec<Complex64>> {
     let mut modes = eigenvalues(&hierarchy.alpha_z()).ok()?;
     if hierarchy.N.ncols() < network.n_subsystems() {
         modes.extend(eigenvalues(&network.a).ok()?);

@@ -6,8 +6,8 @@ use nalgebra::DMatrix;
 
 use crate::document::limits::MAX_POLES;
 use crate::document::{Document, NetworkData, PlantData};
-use crate::numerics::{Complex64, Tolerance, conjugate_pairs, rank};
-use crate::observer::hierarchical::{Hierarchy, MOST_GLOBAL_STATES};
+use crate::numerics::{Complex64, conjugate_pairs, rank};
+use crate::observer::hierarchical::{MOST_GLOBAL_STATES, proposed_order};
 use crate::observer::{Method, Order, show};
 use crate::system::{Network, TimeDomain};
 
@@ -125,7 +125,7 @@ pub(super) fn drag_local(document: &mut Document, index: usize, to: Complex64) {
 fn needed(document: &Document) -> Option<(usize, TimeDomain)> {
     if document.design.method == Method::Hierarchical {
         let PlantData::Network(data) = &document.plant else { return None };
-        return Some((global_order(data, &document.tolerance)?, TimeDomain::Continuous));
+        return Some((global_order(data)?, TimeDomain::Continuous));
     }
     let system = document.system().ok()?;
     let rank = rank(&system.E, 0.0, &document.tolerance).ok()?;
@@ -142,20 +142,20 @@ fn needed(document: &Document) -> Option<(usize, TimeDomain)> {
     Some((needed, system.time))
 }
 
-/// States of the global observer of a network; of a large one at most, by who listens and who is listened to alone,
-/// since no keystroke waits for the rank of a large matrix. `None` when there is none.
-fn global_order(data: &NetworkData, tolerance: &Tolerance) -> Option<usize> {
-    const DECIDED: usize = 100;
+/// States that the global observer of a network will have, as far as they are known without a decomposition, which no
+/// keystroke waits for; of a large network at most, by who listens and who is listened to alone. `None` when there is none.
+fn global_order(data: &NetworkData) -> Option<usize> {
+    const COUNTED: usize = 100;
     let network = data.network().ok()?;
-    if network.n_subsystems() <= DECIDED {
-        return Hierarchy::of(&network, tolerance).ok().map(|hierarchy| hierarchy.order());
+    if network.n_subsystems() <= COUNTED {
+        return proposed_order(&network, MOST_GLOBAL_STATES);
     }
     let entries = data.Gamma.entries();
     let count = |of: fn(&(usize, usize, f64)) -> usize| entries.iter().map(of).collect::<BTreeSet<_>>().len();
     let nu = count(|entry| entry.0).min(count(|entry| entry.1));
     let one = DMatrix::from_element(1, 1, 1.0);
     let alone = Network { Gamma: one.clone().into(), Psi: one, local: Vec::new(), ..network };
-    let mu = Hierarchy::of(&alone, tolerance).ok()?.order();
+    let mu = proposed_order(&alone, MOST_GLOBAL_STATES)?;
     Some(nu * mu).filter(|order| *order <= MOST_GLOBAL_STATES)
 }
 

@@ -107,7 +107,7 @@ fn a_plain_ring_is_refused_with_found_and_allowed() {
 }
 
 #[test]
-fn larger_wholes_are_decided_by_blocks_as_by_the_whole() {
+fn larger_wholes_are_decided_by_the_test_of_the_whole() {
     for (seed, hide) in [(1, false), (2, true), (3, false), (4, true)] {
         let mut random = Random::new(seed);
         let mut network = hub_network(40, 10);
@@ -128,14 +128,13 @@ fn larger_wholes_are_decided_by_blocks_as_by_the_whole() {
         let entries = entries.map(|(i, j, value)| (i, j, value * own(i, j)));
         network.Gamma = CouplingMatrix::Sparse { rows, columns, entries: entries.collect() };
         let hierarchy = Hierarchy::of(&network, &tolerance()).unwrap();
-        assert_eq!(hierarchy.order(), 20, "beyond what is tested as a whole");
+        assert_eq!(hierarchy.order(), 20, "ten hubs");
         let found = conditions(&network, &tolerance()).unwrap();
         let global = find(&found, "003-P1-global");
         let modes = pbh_modes(&hierarchy.alpha_z(), &hierarchy.gamma_z(), &tolerance()).unwrap();
         let whole = modes.iter().all(|mode| !mode.unobservable || mode.value.re < -1e-6);
         assert_eq!(global.verdict.holds(), whole, "{seed}: {}", global.summary);
-        let Evidence::Points { of, points } = &global.evidence[0] else { unreachable!("points") };
-        assert!(of.contains("by the eigenvalues"), "{of}");
+        let Evidence::Points { points, .. } = &global.evidence[0] else { unreachable!("points") };
         let hidden = (
             points.iter().filter(|point| point.loses_rank).count(),
             modes.iter().filter(|mode| mode.unobservable).count(),

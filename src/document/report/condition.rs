@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::{complexes, number, numbers};
 use crate::numerics::RankDecision;
-use crate::observer::{Condition, Evidence, PointEvidence, Verdict, Witness};
+use crate::observer::{Condition, Evidence, PointEvidence, SetEvidence, Verdict, Witness};
 
 pub(super) fn condition(condition: &Condition) -> Value {
     let Condition {
@@ -50,6 +50,20 @@ fn evidence(evidence: &Evidence) -> Value {
         Evidence::Rank { of, decision, required } => rank(of, decision, *required),
         Evidence::Points { of, points } => {
             json!({ "kind": "points", "of": of, "points": points.iter().map(point).collect::<Value>() })
+        }
+        Evidence::Sets { of, names: [element, set, space], sets } => {
+            let one = |found: &SetEvidence| {
+                json!({
+                    "element": super::complex(found.element),
+                    "members": complexes(&found.members),
+                    "size": found.members.len(),
+                    "dimension": found.dimension,
+                })
+            };
+            json!({
+                "kind": "sets", "of": of, "element": element, "set": set, "space": space,
+                "sets": sets.iter().map(one).collect::<Value>(),
+            })
         }
     }
 }

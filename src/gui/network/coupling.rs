@@ -52,7 +52,7 @@ pub(super) fn matrices(
         ),
     );
     grids::head(ui, data, NetworkMatrix::Psi, chosen, out);
-    formula::remark(ui, &listed(data));
+    formula::remark(ui, &links.psi);
 }
 
 fn named(response: &Response, name: &str) {
@@ -180,18 +180,4 @@ fn edge(ui: &mut Ui, session: &Session, data: &NetworkData, widgets: &mut Widget
         ui.colored_label(theme::bad(ui), format!("weight: {}", draft.error));
     }
     (widgets.network.subsystem, widgets.network.from) = (to, from);
-}
-
-/// The entries of `Psi`, as far as they can be read in a line.
-fn listed(data: &NetworkData) -> String {
-    const SHOWN: usize = 12;
-    let entries = data.Psi.entries();
-    let one = |(i, j, value): &(usize, usize, f64)| {
-        format!("Psi[{}, {}] = {}", i + 1, j + 1, super::super::plot::short(*value))
-    };
-    let mut text = entries.iter().take(SHOWN).map(one).collect::<Vec<_>>().join(", ");
-    if entries.len() > SHOWN {
-        text.extend([" and ", &(entries.len() - SHOWN).to_string(), " more"]);
-    }
-    if text.is_empty() { "nothing is measured globally: all entries are zero".to_owned() } else { text }
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use super::super::plot::short;
 use crate::document::NetworkData;
 use crate::session::{CouplingForm, coupling_forms};
 
@@ -36,6 +37,22 @@ pub(super) struct Links {
     pub forms: Vec<(CouplingForm, f64)>,
     /// Which subsystems have local measurements.
     pub measured: Vec<bool>,
+    /// For each subsystem whom it listens to, itself included when it has an entry.
+    pub listens: Vec<Vec<usize>>,
+    /// The entries of `Psi` in a line, as far as they can be read in one.
+    pub psi: String,
+}
+
+/// The entries of `Psi`, as far as they can be read in a line.
+fn listed(data: &NetworkData) -> String {
+    const SHOWN: usize = 12;
+    let entries = data.Psi.entries();
+    let one = |(i, j, value): &(usize, usize, f64)| format!("Psi[{}, {}] = {}", i + 1, j + 1, short(*value));
+    let mut text = entries.iter().take(SHOWN).map(one).collect::<Vec<_>>().join(", ");
+    if entries.len() > SHOWN {
+        text.extend([" and ", &(entries.len() - SHOWN).to_string(), " more"]);
+    }
+    if text.is_empty() { "nothing is measured globally: all entries are zero".to_owned() } else { text }
 }
 
 impl Links {
@@ -46,6 +63,12 @@ impl Links {
         let mut own = vec![0.0; count];
         for (i, _, value) in entries.iter().filter(|(i, j, _)| i == j) {
             own[*i] = *value;
+        }
+        let mut listens = vec![Vec::new(); count];
+        for (i, j, _) in &entries {
+            if let Some(row) = listens.get_mut(*i) {
+                row.push(*j);
+            }
         }
         let edges: Vec<&(usize, usize, f64)> = entries.iter().filter(|(i, j, _)| i != j).collect();
         let places: BTreeSet<(usize, usize)> = edges.iter().map(|(to, from, _)| (*to, *from)).collect();
@@ -69,6 +92,8 @@ impl Links {
             largest: edges.iter().map(|edge| edge.2.abs()).fold(0.0, f64::max),
             forms: coupling_forms(&data.Gamma),
             measured,
+            listens,
+            psi: listed(data),
         }
     }
 }
@@ -93,6 +118,8 @@ mod tests {
         assert_eq!(links.drawn[0], Link { to: 0, from: 1, weight: 2.0, mutual: true }, "1 listens to 2");
         assert!(!links.drawn[2].mutual, "1 does not listen to 3");
         assert_eq!((links.own[1], links.largest, links.total), (5.0, 3.0, 3), "the diagonal is no edge");
+        assert_eq!(links.listens, [vec![1], vec![0, 1], vec![0], vec![]], "row by row");
+        assert_eq!(links.psi, "Psi[1, 1] = 1, Psi[1, 2] = -1", "in a line");
         assert_eq!(links.measured, [false, false, false, true], "subsystem 4 has a sensor");
     }
 

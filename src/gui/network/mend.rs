@@ -6,7 +6,9 @@ use crate::session::{Edit, Measure, NetworkEdit};
 pub(in crate::gui) fn button(condition: &str, remedy: &str) -> Option<(String, Edit)> {
     let (text, measure) = match condition {
         "003-11-Psi" => ("Use row 1 of Gamma".to_owned(), Measure::ReceivedOnly { subsystem: 0 }),
-        "003-11-cG" => ("Use c".to_owned(), Measure::CouplingOutputOnly),
+        "003-11-cG" if remedy.ends_with("for example c_I itself") => {
+            ("Use c".to_owned(), Measure::CouplingOutputOnly)
+        }
         "003-P1-global" if remedy.starts_with("adding the rows of c_I") => {
             ("Add the rows of c".to_owned(), Measure::CouplingOutput)
         }

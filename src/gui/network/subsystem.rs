@@ -141,8 +141,8 @@ fn received(
     out: &mut Output,
 ) {
     const SHOWN: usize = 24;
-    let mut row: Vec<usize> =
-        data.Gamma.entries().into_iter().filter(|entry| entry.0 == k).map(|entry| entry.1).collect();
+    let links = widgets.network.links(session.revision(), data);
+    let mut row = links.listens.get(k).cloned().unwrap_or_default();
     if !row.contains(&k) {
         row.push(k);
         row.sort_unstable();

@@ -5,7 +5,7 @@ use egui::{RichText, Sense, Stroke, Ui, vec2};
 use super::super::{Output, Widgets, formula, network, theme};
 use super::errata;
 use crate::numerics::RankDecision;
-use crate::observer::{Condition, Evidence, Verdict, Witness, show as show_number};
+use crate::observer::{Condition, Evidence, SetEvidence, Verdict, Witness, show as show_number};
 use crate::paper::Shown;
 use crate::session::Edit;
 
@@ -40,7 +40,11 @@ fn one(ui: &mut Ui, shown: Shown, condition: &Condition, widgets: &mut Widgets, 
         lamp(ui, condition.verdict);
         ui.label(RichText::new(&condition.label).strong());
         ui.label(&condition.name);
-        ui.label(RichText::new(theme::verdict_word(condition.verdict)).color(colour).strong());
+        let word = match condition.verdict {
+            Verdict::Undecided if condition.needed => "not decided",
+            verdict => theme::verdict_word(verdict),
+        };
+        ui.label(RichText::new(word).color(colour).strong());
         if !condition.needed {
             ui.label(RichText::new("not needed here").small().color(theme::faint(ui)));
         }
@@ -113,8 +117,10 @@ fn why(ui: &mut Ui, condition: &Condition, out: &mut Output) {
             }
         });
     }
+    // where observability is asked, it does not matter whether a mode decays
+    let observability = condition.id.starts_with("003-T2") || condition.id.starts_with("003-C1");
     for evidence in &condition.evidence {
-        evidence_row(ui, evidence);
+        evidence_row(ui, evidence, observability);
     }
     formula::remark(ui, &condition.source);
 }
@@ -124,6 +130,13 @@ fn unseen(witness: &Witness) -> String {
     let names = witness.main_coordinates().join(", ");
     let starts = |word: &str| witness.main_coordinates().iter().any(|name| name.starts_with(word));
     match witness.s {
+        Some(s) if starts("coupling direction") => format!(
+            "The eigenvalue lambda = {} of the coupling, along {names}, is seen by no global output.",
+            show_number(s)
+        ),
+        Some(s) if starts("shown state") => {
+            format!("The mode s = {} along {names} is driven by no coupling input.", show_number(s))
+        }
         Some(s) => format!("The mode s = {} along {names} is seen by no sensor.", show_number(s)),
         None if starts("equation") => {
             let of = if names.contains(", ") { "A combination of " } else { "The " };
@@ -140,7 +153,7 @@ fn sensor(remedy: &str) -> Option<usize> {
     number.parse::<usize>().ok()?.checked_sub(1)
 }
 
-fn evidence_row(ui: &mut Ui, evidence: &Evidence) {
+fn evidence_row(ui: &mut Ui, evidence: &Evidence, observability: bool) {
     match evidence {
         Evidence::Rank { of, decision, required } => {
             formula::remark(
@@ -155,12 +168,12 @@ fn evidence_row(ui: &mut Ui, evidence: &Evidence) {
             singular_values(ui, decision);
         }
         Evidence::Points { of, points } => {
-            if points.is_empty() {
-                formula::remark(ui, &format!("{of}: no finite point loses rank"));
-            }
+            let none = if points.is_empty() { " no finite point loses rank" } else { "" };
+            formula::remark(ui, &format!("{of}:{none}"));
             for point in points {
                 let state = match (point.loses_rank, point.stable) {
                     (false, _) => "seen",
+                    (true, _) if observability => "not seen",
                     (true, true) => "not seen, but stable",
                     (true, false) => "not seen and not stable",
                 };
@@ -170,7 +183,25 @@ fn evidence_row(ui: &mut Ui, evidence: &Evidence) {
                 );
             }
         }
+        Evidence::Sets { of, names, sets } => {
+            formula::remark(ui, &format!("{of}:"));
+            for set in sets {
+                formula::remark(ui, &set_line(names, set));
+            }
+        }
     }
+}
+
+/// One set with its element, size and dimension.
+fn set_line([element, set, space]: &[String; 3], found: &SetEvidence) -> String {
+    let members: Vec<String> = found.members.iter().map(|member| show_number(*member)).collect();
+    format!(
+        "{element} = {}, {set} = {{{}}}, |{set}| = {}, dim {space} = {}",
+        show_number(found.element),
+        members.join(", "),
+        members.len(),
+        found.dimension
+    )
 }
 
 fn gap(gap: f64) -> String {
@@ -221,6 +252,15 @@ mod tests {
     use crate::numerics::Complex64;
 
     #[test]
+    fn a_set_is_listed_with_its_size() {
+        let names = ["pi", "Theta_pi", "V_pi"].map(str::to_owned);
+        let members = vec![Complex64::from(1.0), Complex64::from(2.0)];
+        let set = SetEvidence { element: Complex64::from(0.5), members, dimension: 2 };
+        let line = "pi = 0.5, Theta_pi = {1, 2}, |Theta_pi| = 2, dim V_pi = 2";
+        assert_eq!(set_line(&names, &set), line, "element, members, size, dimension");
+    }
+
+    #[test]
     fn a_witness_is_a_sentence_of_what_it_shows() {
         let witness = |s: Option<f64>, name: &str| Witness {
             s: s.map(Complex64::from),
@@ -228,6 +268,14 @@ mod tests {
             coordinates: vec![name.to_owned()],
         };
         assert_eq!(unseen(&witness(Some(2.0), "x1")), "The mode s = 2 along x1 is seen by no sensor.");
+        assert_eq!(
+            unseen(&witness(Some(-3.0), "coupling direction 2")),
+            "The eigenvalue lambda = -3 of the coupling, along coupling direction 2, is seen by no global output."
+        );
+        assert_eq!(
+            unseen(&witness(Some(0.5), "shown state 2")),
+            "The mode s = 0.5 along shown state 2 is driven by no coupling input."
+        );
         assert_eq!(unseen(&witness(None, "x1")), "An impulse along x1 is seen by no sensor.");
         assert!(unseen(&witness(None, "d1")).starts_with("A sudden change along d1"), "an unknown input");
         assert!(

@@ -4,9 +4,9 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::numerics::{
-    NumericsError, Random, RankDecision, Tolerance, observable_quotient, rank, subspaces, svd,
+    NumericsError, Random, RankDecision, Tolerance, observable_quotient, singular_values, subspaces, svd,
 };
-use crate::system::CouplingMatrix;
+use crate::system::{CouplingMatrix, Network};
 
 /// Up to this many subsystems the singular values of the whole `Gamma` are computed.
 const DENSE: usize = 64;
@@ -124,33 +124,64 @@ fn strips(Gamma: &CouplingMatrix) -> impl Iterator<Item = (usize, DMatrix<f64>)>
 
 /// Gram-Schmidt on the rows of `Gamma` in their order, which is how the paper's own `N` came about.
 fn rows_in_order(Gamma: &CouplingMatrix, rank: usize) -> DMatrix<f64> {
-    let mut basis = Vec::with_capacity(rank);
+    columns(Gamma.nrows(), &first_rows(Gamma, rank, NEW_SHARE))
+}
+
+/// The first rows of `Gamma` that are new by a share of themselves, orthonormalised; `most` at most.
+fn first_rows(Gamma: &CouplingMatrix, most: usize, share: f64) -> Vec<DVector<f64>> {
+    let mut basis = Vec::new();
     for (_, strip) in strips(Gamma) {
         for row in strip.column_iter() {
-            if basis.len() == rank {
-                break;
+            if basis.len() == most {
+                return basis;
             }
-            extend(&mut basis, row.into_owned());
+            extend(&mut basis, row.into_owned(), share);
         }
     }
-    columns(Gamma.nrows(), &basis)
+    basis
+}
+
+/// The order of the global observer as orthogonalising proposes it, without a decomposition; `None` beyond `most`.
+///
+/// It decides nothing: a list of poles is provided by it while somebody types.
+pub fn proposed_order(network: &Network, most: usize) -> Option<usize> {
+    // more than rounding leaves of a dependent row, less than what the data of a network leave of an independent one
+    const SHARE: f64 = 1e-6;
+    let mu = krylov(&network.a, &(&network.b * &network.c), SHARE).len();
+    let nu = first_rows(&network.Gamma, most / mu.max(1) + 1, SHARE).len();
+    Some(nu * mu).filter(|order| *order <= most)
+}
+
+/// The rows of `bc` and their images under `a`, orthonormalised in order.
+fn krylov(a: &DMatrix<f64>, bc: &DMatrix<f64>, share: f64) -> Vec<DVector<f64>> {
+    let mut basis = Vec::new();
+    for row in bc.row_iter() {
+        extend(&mut basis, row.transpose(), share);
+    }
+    let mut next = 0;
+    while let Some(vector) = basis.get(next) {
+        let image = a.tr_mul(vector);
+        extend(&mut basis, image, share);
+        next += 1;
+    }
+    basis
 }
 
 /// Adds what is new of a vector, orthogonalised twice, when its share is large enough.
-fn extend(basis: &mut Vec<DVector<f64>>, vector: DVector<f64>) {
+fn extend(basis: &mut Vec<DVector<f64>>, vector: DVector<f64>, share: f64) {
     let size = vector.norm();
-    if size == 0.0 || !size.is_finite() {
+    if size == 0.0 || !size.is_finite() || basis.len() == vector.len() {
         return;
     }
     let mut rest = vector;
     for _ in 0..2 {
         for known in basis.iter() {
-            let share = known.dot(&rest);
-            rest.axpy(-share, known, 1.0);
+            let along = known.dot(&rest);
+            rest.axpy(-along, known, 1.0);
         }
     }
     let new = rest.norm();
-    if new > NEW_SHARE * size {
+    if new > share * size {
         basis.push(rest / new);
     }
 }
@@ -194,24 +225,33 @@ pub(super) fn shown_part(
 ) -> Result<ShownPart, NumericsError> {
     const INVARIANT: f64 = 1e-12;
     let n = a.nrows();
-    let quotient = observable_quotient(a, bc, tolerance)?;
+    let independent = row_factor(bc, tolerance)?;
+    let quotient = observable_quotient(a, &independent, tolerance)?;
     let mu = quotient.basis.ncols();
-    let mut basis = Vec::new();
-    for row in bc.row_iter() {
-        extend(&mut basis, row.transpose());
-    }
-    let mut next = 0;
-    while let Some(vector) = basis.get(next) {
-        let image = a.tr_mul(vector);
-        extend(&mut basis, image);
-        next += 1;
-    }
-    let krylov = columns(n, &basis);
+    let krylov = columns(n, &krylov(a, bc, NEW_SHARE));
     let outside = |rows: &DMatrix<f64>| (rows - rows * &krylov * krylov.transpose()).norm();
     let invariant =
         outside(&krylov.tr_mul(a)) <= INVARIANT * a.norm() && outside(bc) <= INVARIANT * bc.norm();
     let M = if krylov.ncols() == mu && invariant { krylov } else { with_canonical_signs(quotient.basis) };
-    Ok(ShownPart { M, printed: rank(&observability_matrix(a, bc), 0.0, tolerance)? })
+    Ok(ShownPart { M, printed: printed_rank(a, &independent, tolerance)? })
+}
+
+/// As many rows as `bc` has independent ones, with the same singular values: `S V'` of `b c = U S V'`.
+fn row_factor(bc: &DMatrix<f64>, tolerance: &Tolerance) -> Result<DMatrix<f64>, NumericsError> {
+    let found = svd(bc)?;
+    let rank = RankDecision::from_singular_values(bc.shape(), found.s.clone(), 0.0, tolerance).rank;
+    Ok(DMatrix::from_fn(rank, bc.ncols(), |i, j| found.s[i] * found.v[(j, i)]))
+}
+
+/// The rank of `O_n(a, b c)`, whose singular values are those of `O_n(a, S V')`.
+fn printed_rank(
+    a: &DMatrix<f64>,
+    independent: &DMatrix<f64>,
+    tolerance: &Tolerance,
+) -> Result<RankDecision, NumericsError> {
+    let n = a.nrows();
+    let values = singular_values(&observability_matrix(a, independent))?;
+    Ok(RankDecision::from_singular_values((n * n, n), values, 0.0, tolerance))
 }
 
 /// `[c; c a; ...; c a^(n-1)]` of `a` divided by its norm, which leaves the row space as it is.

@@ -1,4 +1,4 @@
-//! The modes of the whole, one eigenvalue of `Gamma_nu` at a time.
+//! The modes of the whole, one eigenvalue of `Gamma_nu` at a time: they explain what the PBH test of the whole decides.
 //!
 //! With a diagonalisable `Gamma_nu` the pair `(alpha_z, gamma_z)` falls apart into blocks of the size of a subsystem:
 //!
@@ -6,18 +6,23 @@
 //! ker (pi I - alpha_z) = sum over lambda in Theta_pi of  ker (lambda I - Gamma_nu) kron ker (pi I - a_z - lambda b_z c_z)
 //!             Theta_pi = { lambda in eig Gamma_nu : pi in eig (a_z + lambda b_z c_z) }
 //! ```
-//!
-//! so that no matrix of order `nu mu` is decomposed.
 #![expect(non_snake_case, reason = "matrix letters follow paper 003")]
 
 use nalgebra::{DMatrix, Matrix};
 
 use super::Hierarchy;
-use crate::numerics::Block::{Minus, Of};
-use crate::numerics::{Complex64, NumericsError, block_matrix, complex_svd, eigenvalues};
+use crate::numerics::Block::{Minus, Of, Zero};
+use crate::numerics::{
+    Complex64, NumericsError, PbhMode, Tolerance, block_matrix, complex_eigenvalues, complex_svd,
+    eigenvalues, pbh_modes,
+};
 
 /// Eigenvalues closer than this, relative to the norm of their matrix, count as one.
 const SAME: f64 = 1e-6;
+
+/// How far a computed eigenvalue of a block may be from the true one, relative to the size of the blocks: Jordan blocks of
+/// three are known to five digits.
+const DOUBT: f64 = 1e-4;
 
 /// Above this condition number of its eigenvectors `Gamma_nu` does not count as diagonalisable.
 const LARGEST_CONDITION: f64 = 1e6;
@@ -69,40 +74,63 @@ impl Eigenspaces {
 }
 
 /// `a_z + lambda b_z c_z`.
-pub(super) fn block(hierarchy: &Hierarchy, lambda: Complex64) -> DMatrix<Complex64> {
+fn block(hierarchy: &Hierarchy, lambda: Complex64) -> DMatrix<Complex64> {
     let bc = &hierarchy.b_z * &hierarchy.c_z;
     complex(&hierarchy.a_z) + complex(&bc) * lambda
 }
 
 /// The size of the blocks, which distances refer to.
-pub(super) fn block_size(hierarchy: &Hierarchy) -> f64 {
+fn block_size(hierarchy: &Hierarchy) -> f64 {
     let bc = &hierarchy.b_z * &hierarchy.c_z;
     (hierarchy.a_z.norm() + hierarchy.Gamma_nu.norm() * bc.norm()).max(f64::MIN_POSITIVE)
 }
 
-/// Eigenvalues of `a_z + lambda b_z c_z`; of a complex block by the real matrix `[R -S; S R]`, whose other half, the
-/// eigenvalues of the conjugate block, is sorted out.
+/// Eigenvalues of `a_z + lambda b_z c_z`.
 ///
 /// # Errors
-/// As [`eigenvalues`] and [`complex_svd`].
-pub(super) fn block_eigenvalues(
+/// As [`eigenvalues`].
+fn block_eigenvalues(hierarchy: &Hierarchy, lambda: Complex64) -> Result<Vec<Complex64>, NumericsError> {
+    let A = block(hierarchy, lambda);
+    if lambda.im == 0.0 { eigenvalues(&A.map(|z| z.re)) } else { complex_eigenvalues(&A) }
+}
+
+/// The PBH test of `(a_z + lambda b_z c_z, c_G M)`; a complex block is tested by its real embedding.
+///
+/// ```text
+/// [R -S; S R], [c 0; 0 c]   has the modes of the block R + i S and of its conjugate
+/// ```
+///
+/// What the conjugate block adds is left out again.
+///
+/// # Errors
+/// As [`pbh_modes`].
+pub(super) fn block_test(
     hierarchy: &Hierarchy,
     lambda: Complex64,
-) -> Result<Vec<Complex64>, NumericsError> {
+    tolerance: &Tolerance,
+) -> Result<Vec<PbhMode>, NumericsError> {
     let A = block(hierarchy, lambda);
-    let (R, S) = (A.map(|z| z.re), A.map(|z| z.im));
+    let (R, S, c) = (A.map(|z| z.re), A.map(|z| z.im), &hierarchy.thin_c_GM());
     if lambda.im == 0.0 {
-        return eigenvalues(&R);
+        return pbh_modes(&R, c, tolerance);
     }
-    let both = eigenvalues(&block_matrix(&[&[Of(&R), Minus(&S)], &[Of(&S), Of(&R)]]))?;
-    let mut own = Vec::with_capacity(both.len());
-    for pi in both {
-        own.push((smallest(&shifted(pi, &A))?, pi));
+    let both = block_matrix(&[&[Of(&R), Minus(&S)], &[Of(&S), Of(&R)]]);
+    let outputs = block_matrix(&[&[Of(c), Zero], &[Zero, Of(c)]]);
+    let size = SAME * block_size(hierarchy);
+    let mut own = Vec::new();
+    for mut mode in pbh_modes(&both, &outputs, tolerance)? {
+        let (here, there) = (smallest(&shifted(mode.value, &A))?, smallest(&shifted(mode.value.conj(), &A))?);
+        if here > there + size {
+            continue;
+        }
+        if (here - there).abs() <= size && mode.multiplicity > 1 {
+            mode.multiplicity /= 2; // both blocks have it
+        }
+        // the norm of the embedding is that of the block times the root of two
+        mode.distance *= std::f64::consts::SQRT_2;
+        own.push(mode);
     }
-    own.sort_by(|x, y| x.0.total_cmp(&y.0));
-    // an eigenvalue that both blocks share stands twice in the list and once among the mu that are kept
-    own.truncate(A.nrows());
-    Ok(own.into_iter().map(|(_, pi)| pi).collect())
+    Ok(own)
 }
 
 /// A mode of the whole.
@@ -115,73 +143,97 @@ pub(super) struct BlockMode {
     pub(super) dimension: usize,
     /// Smallest singular value of `gamma_z` on the orthonormalised eigenspace, relative to the size of the pair.
     pub(super) distance: f64,
-    /// The direction within the eigenspace that is seen least, in the coordinates of z, largest entry 1.
-    pub(super) direction: Vec<Complex64>,
+    /// Whether a combination of its directions is invisible.
+    pub(super) hidden: bool,
 }
 
 /// All modes of the whole, with what the global output sees of them.
+///
+/// The hidden modes that the PBH test of the whole has found come first: it knows multiple eigenvalues to more digits than
+/// the eigenvalues of a block, and those of these within the doubt about them are left out.
 ///
 /// # Errors
 /// As [`complex_svd`].
 pub(super) fn block_modes(
     hierarchy: &Hierarchy,
     found: &Eigenspaces,
+    whole: &[PbhMode],
+    tolerance: &Tolerance,
 ) -> Result<Vec<BlockMode>, NumericsError> {
     let reach = SAME * block_size(hierarchy);
+    let doubt = DOUBT * block_size(hierarchy);
+    let mut modes = Vec::new();
+    let mut known: Vec<(Complex64, Vec<usize>)> = Vec::new();
+    for mode in whole.iter().filter(|mode| mode.unobservable) {
+        let mut theta = Vec::new();
+        for (k, space) in found.spaces.iter().enumerate() {
+            if smallest(&shifted(mode.value, &block(hierarchy, space.lambda)))? <= reach {
+                theta.push(k);
+            }
+        }
+        modes.extend(seen(hierarchy, found, (mode.value, &theta), (reach, SAME), tolerance)?);
+        known.push((mode.value, theta));
+    }
     let mut pairs = Vec::new();
     for (k, space) in found.spaces.iter().enumerate() {
         for pi in block_eigenvalues(hierarchy, space.lambda)? {
-            pairs.push((pi, k));
+            if !known.iter().any(|(hidden, theta)| theta.contains(&k) && (hidden - pi).norm() <= doubt) {
+                pairs.push((pi, k));
+            }
         }
     }
-    let gamma = complex(&hierarchy.gamma_z());
-    let scale = block_size(hierarchy).hypot(gamma.norm());
-    let mut modes = Vec::new();
     for members in clusters(&pairs.iter().map(|(pi, _)| *pi).collect::<Vec<_>>(), reach) {
-        let pi = mean(&members);
         let mut theta: Vec<usize> =
             pairs.iter().filter(|(other, _)| members.contains(other)).map(|(_, k)| *k).collect();
         theta.sort_unstable();
         theta.dedup();
-        let mut columns = Vec::new();
-        for &k in &theta {
-            let space = &found.spaces[k];
-            let kernel = kernel(&shifted(pi, &block(hierarchy, space.lambda)), reach)?;
-            let product = space.vectors.kronecker(&kernel);
-            columns.extend(product.column_iter().map(Matrix::into_owned));
-        }
-        if columns.is_empty() {
-            continue;
-        }
-        let V = DMatrix::from_columns(&columns).qr().q();
-        let seen = complex_svd(&(&gamma * &V))?;
-        let least = if seen.s.len() < V.ncols() { 0.0 } else { seen.s.last().copied().unwrap_or(0.0) };
-        let direction = (&V * seen.v.column(V.ncols() - 1)).iter().copied().collect();
-        modes.push(BlockMode {
-            pi,
-            theta,
-            dimension: V.ncols(),
-            distance: least / scale,
-            direction: normalised(direction),
-        });
+        modes.extend(seen(hierarchy, found, (mean(&members), &theta), (reach, tolerance.mode), tolerance)?);
     }
     Ok(modes)
 }
 
-/// Smallest singular value of `[pi I - A; c]`, zero columns counting as seen.
+/// What the global output sees of one mode; `None` when no block has it.
+fn seen(
+    hierarchy: &Hierarchy,
+    found: &Eigenspaces,
+    (pi, theta): (Complex64, &[usize]),
+    (reach, limit): (f64, f64),
+    tolerance: &Tolerance,
+) -> Result<Option<BlockMode>, NumericsError> {
+    let gamma = complex(&hierarchy.thin_gamma_z());
+    let scale = block_size(hierarchy).hypot(gamma.norm());
+    let mut columns = Vec::new();
+    for &k in theta {
+        let space = &found.spaces[k];
+        let kernel = kernel(&shifted(pi, &block(hierarchy, space.lambda)), reach)?;
+        let product = space.vectors.kronecker(&kernel);
+        columns.extend(product.column_iter().map(Matrix::into_owned));
+    }
+    if columns.is_empty() {
+        return Ok(None);
+    }
+    let V = DMatrix::from_columns(&columns).qr().q();
+    let s = complex_svd(&(&gamma * &V))?.s;
+    let least = if s.len() < V.ncols() { 0.0 } else { s.last().copied().unwrap_or(0.0) };
+    let distance = least / scale;
+    let hidden = distance <= limit.max(tolerance.mode);
+    Ok(Some(BlockMode { pi, theta: theta.to_vec(), dimension: V.ncols(), distance, hidden }))
+}
+
+/// Smallest singular value; infinite for a matrix without entries.
 ///
 /// # Errors
 /// As [`complex_svd`].
-pub(super) fn smallest(matrix: &DMatrix<Complex64>) -> Result<f64, NumericsError> {
+fn smallest(matrix: &DMatrix<Complex64>) -> Result<f64, NumericsError> {
     Ok(complex_svd(matrix)?.s.last().copied().unwrap_or(f64::INFINITY))
 }
 
 /// `s I - A`.
-pub(super) fn shifted(s: Complex64, A: &DMatrix<Complex64>) -> DMatrix<Complex64> {
+fn shifted(s: Complex64, A: &DMatrix<Complex64>) -> DMatrix<Complex64> {
     DMatrix::from_diagonal_element(A.nrows(), A.ncols(), s) - A
 }
 
-pub(super) fn complex(matrix: &DMatrix<f64>) -> DMatrix<Complex64> {
+fn complex(matrix: &DMatrix<f64>) -> DMatrix<Complex64> {
     matrix.map(Complex64::from)
 }
 
@@ -210,11 +262,4 @@ fn clusters(values: &[Complex64], reach: f64) -> Vec<Vec<Complex64>> {
 /// The mean of a group, real when the group lies on the real axis.
 fn mean(members: &[Complex64]) -> Complex64 {
     members.iter().sum::<Complex64>() / members.len().max(1) as f64
-}
-
-/// Divides by the entry of largest absolute value.
-fn normalised(vector: Vec<Complex64>) -> Vec<Complex64> {
-    let largest =
-        vector.iter().copied().fold(Complex64::ZERO, |a, b| if b.norm() > a.norm() { b } else { a });
-    if largest.norm() == 0.0 { vector } else { vector.into_iter().map(|z| z / largest).collect() }
 }

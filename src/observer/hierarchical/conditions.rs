@@ -3,25 +3,30 @@
 
 use nalgebra::DMatrix;
 
+use super::bases::{row_space, shown_part};
+use super::pairs::{Mode, judge, pair, points_of};
 use super::theorem::{Theorem, relative_outside};
 use super::{Hierarchy, HierarchyError};
-use crate::numerics::{
-    Complex64, NumericsError, PbhMode, RankDecision, StabilityRegion, Tolerance, pbh_modes, stack,
-};
-use crate::observer::{Condition, Evidence, PointEvidence, Verdict, Witness, show};
+use crate::numerics::{NumericsError, PbhMode, RankDecision, Tolerance, pbh_modes, rank, stack};
+use crate::observer::{Condition, DesignChoice, Evidence, Verdict};
 use crate::system::Network;
 use crate::system::properties::PropertyError;
 
 const PAPER: &str = "Ishizaki, Sakai, Kashima and Imura";
 
-/// Up to this many states the PBH test is made on `(alpha_z, gamma_z)` as a whole, beyond it block by block where
-/// `Gamma_nu` has a basis of eigenvectors.
-const WHOLE: usize = 16;
+/// Existence conditions of the hierarchical decentralized observer of a network, with a local observer wherever there are
+/// local measurements; see [`conditions_for`].
+///
+/// # Errors
+/// Matrices that do not fit, and decompositions that fail their check.
+pub fn conditions(network: &Network, tolerance: &Tolerance) -> Result<Vec<Condition>, PropertyError> {
+    conditions_for(network, &DesignChoice::default(), tolerance)
+}
 
 /// Existence conditions of the hierarchical decentralized observer of a network.
 ///
-/// The inclusions (11) and detectability of `(alpha_z, gamma_z)` and of `(a_I, c_L)` are needed; Theorem 2 and its
-/// corollary explain the former and are not.
+/// The inclusions (11) and detectability of `(alpha_z, gamma_z)` are needed, that of `(a_I, c_L)` where the choice plugs
+/// local observers in; Theorem 2 and its corollary explain the former and are not.
 ///
 /// # Errors
 /// Matrices that do not fit, and decompositions that fail their check.
@@ -29,24 +34,44 @@ const WHOLE: usize = 16;
 /// # Source
 /// Paper 003, (11), Proposition 1 (with detectability, of which the paper's observability is a special case), Theorem
 /// 2, Corollary 1.
-pub fn conditions(network: &Network, tolerance: &Tolerance) -> Result<Vec<Condition>, PropertyError> {
-    let hierarchy = match Hierarchy::of(network, tolerance) {
+pub fn conditions_for(
+    network: &Network,
+    choice: &DesignChoice,
+    tolerance: &Tolerance,
+) -> Result<Vec<Condition>, PropertyError> {
+    conditions_of(network, &Hierarchy::of(network, tolerance), choice, tolerance)
+}
+
+/// The same with a representation that is known.
+pub(in crate::observer) fn conditions_of(
+    network: &Network,
+    hierarchy: &Result<Hierarchy, HierarchyError>,
+    choice: &DesignChoice,
+    tolerance: &Tolerance,
+) -> Result<Vec<Condition>, PropertyError> {
+    let mut local = local(network, tolerance)?;
+    local.needed = choice.plugged.as_ref().map_or(!network.local.is_empty(), |plugged| !plugged.is_empty());
+    let hierarchy = match hierarchy {
         Ok(hierarchy) => hierarchy,
-        Err(HierarchyError::System(error)) => return Err(error.into()),
-        Err(HierarchyError::Numerics(error)) => return Err(error.into()),
+        Err(HierarchyError::System(error)) => return Err(error.clone().into()),
+        Err(HierarchyError::Numerics(error)) => return Err(error.clone().into()),
         Err(error @ HierarchyError::TooLarge { .. }) => {
-            return Ok(vec![too_large(&error), local(network, tolerance)?]);
+            let mut result = inclusions_alone(network, tolerance)?;
+            result.extend([too_large(error), local]);
+            return Ok(result);
         }
     };
-    let theorem = Theorem::of(network, &hierarchy, tolerance)?;
-    let mut result = inclusions(network, &hierarchy, tolerance);
-    let mut global = global(&hierarchy, &theorem, tolerance)?;
+    let parts = (&hierarchy.N, &hierarchy.nu, &hierarchy.M, &hierarchy.mu);
+    let mut result = inclusions(network, parts, tolerance)?;
+    let (alpha, gamma) = (hierarchy.alpha_z(), hierarchy.thin_gamma_z());
+    let whole = pbh_modes(&alpha, &gamma, tolerance)?;
+    let mut global = global(&whole, (&alpha, &gamma), tolerance)?;
     if !global.verdict.holds() {
-        global.remedies = more_outputs(network, &hierarchy, tolerance)?;
+        global.remedies = more_outputs(network, hierarchy, tolerance)?;
     }
     result.push(global);
-    result.push(local(network, tolerance)?);
-    result.extend(theorem.conditions()?);
+    result.push(local);
+    result.extend(Theorem::of(network, hierarchy, &whole, tolerance)?.conditions()?);
     Ok(result)
 }
 
@@ -65,10 +90,35 @@ fn too_large(error: &HierarchyError) -> Condition {
     }
 }
 
+/// (11) of a network whose whole is too large: what is known of both row spaces.
+fn inclusions_alone(network: &Network, tolerance: &Tolerance) -> Result<Vec<Condition>, PropertyError> {
+    /// Up to this many subsystems the row space of any coupling is at hand.
+    const DENSE: usize = 64;
+    let Network { a, b, c, Gamma, .. } = network;
+    let shown = shown_part(a, &(b * c), tolerance)?;
+    let most = if Gamma.nrows() <= DENSE { DENSE } else { 0 };
+    let space = row_space(Gamma, most, tolerance)?;
+    let known = space.basis.is_some();
+    let N = space.basis.unwrap_or_else(|| DMatrix::zeros(Gamma.nrows(), 0));
+    let mut result = inclusions(network, (&N, &space.rank, &shown.M, &shown.printed), tolerance)?;
+    if let Some(psi) = result.iter_mut().find(|condition| condition.id == PSI && !known) {
+        psi.verdict = Verdict::Undecided;
+        "not asked: the rank of Gamma is beyond what a global observer can have".clone_into(&mut psi.summary);
+        psi.evidence.clear();
+        psi.remedies.clear();
+    }
+    Ok(result)
+}
+
+const PSI: &str = "003-11-Psi";
+
 /// (11): the global output sees nothing but the whole.
-fn inclusions(network: &Network, hierarchy: &Hierarchy, tolerance: &Tolerance) -> Vec<Condition> {
-    let Hierarchy { N, M, nu, mu, .. } = hierarchy;
-    let one = |which: (&str, &str, &str), outside: f64, rank: (&str, &RankDecision, usize), remedy: &str| {
+fn inclusions(
+    network: &Network,
+    (N, nu, M, mu): (&DMatrix<f64>, &RankDecision, &DMatrix<f64>, &RankDecision),
+    tolerance: &Tolerance,
+) -> Result<Vec<Condition>, NumericsError> {
+    let one = |which: (&str, &str, &str), outside: f64, rank: (&str, &RankDecision, usize)| {
         let (id, name, formula) = which;
         let mut result = condition((id, "(11)"), name, formula);
         let near = outside > tolerance.residual / tolerance.gap && outside <= tolerance.residual;
@@ -77,35 +127,63 @@ fn inclusions(network: &Network, hierarchy: &Hierarchy, tolerance: &Tolerance) -
         let of = if rank.0 == "nu" { "Gamma" } else { "O_n(a_I, b_I c_I)" };
         result.evidence =
             vec![Evidence::Rank { of: of.to_owned(), decision: rank.1.clone(), required: rank.2 }];
-        if outside > tolerance.residual {
-            result.remedies = vec![remedy.to_owned()];
-        }
         result
     };
-    vec![
-        one(
-            ("003-11-Psi", "global output within the coupling", "R(Psi') in R(Gamma')"),
-            relative_outside(&network.Psi, N),
-            ("nu", nu, N.ncols()),
-            "choose each row of Psi as a combination of rows of Gamma, for example a row of Gamma itself",
+    let mut psi = one(
+        (PSI, "global output within the coupling", "R(Psi') in R(Gamma')"),
+        relative_outside(&network.Psi, N),
+        ("nu", nu, N.ncols()),
+    );
+    let mut output = one(
+        (
+            "003-11-cG",
+            "global output within what the coupling output shows",
+            "R(c_G') in R(O_n(a_I, b_I c_I)')",
         ),
-        one(
-            (
-                "003-11-cG",
-                "global output within what the coupling output shows",
-                "R(c_G') in R(O_n(a_I, b_I c_I)')",
-            ),
-            relative_outside(&network.c_G, M),
-            ("mu", mu, M.ncols()),
-            "choose each row of c_G as a combination of rows of c_I, c_I a_I, c_I a_I^2, ...",
-        ),
-    ]
+        relative_outside(&network.c_G, M),
+        ("mu", mu, M.ncols()),
+    );
+    if M.ncols() == 0 {
+        psi.verdict = Verdict::Holds;
+        "mu = 0: a subsystem shows nothing, and with c_G = 0 the global output is zero"
+            .clone_into(&mut psi.summary);
+    }
+    if !psi.verdict.holds() {
+        let text =
+            "choose each row of Psi as a combination of rows of Gamma, for example a row of Gamma itself";
+        psi.remedies = vec![text.to_owned()];
+    }
+    if !output.verdict.holds() {
+        output.remedies = shown_outputs(network, M, tolerance)?;
+    }
+    Ok(vec![psi, output])
 }
 
-/// Detectability of `(alpha_z, gamma_z)`.
+/// Which rows of `c_G` lie within what the coupling output shows, as a sentence.
+///
+/// The rows of `c_I` do when `b_I` has independent columns; else only what `b_I` passes on.
+fn shown_outputs(
+    network: &Network,
+    M: &DMatrix<f64>,
+    tolerance: &Tolerance,
+) -> Result<Vec<String>, NumericsError> {
+    let Network { b, c, .. } = network;
+    if M.ncols() == 0 {
+        let text =
+            "choose c_G = 0, since b_I c_I = 0 shows nothing of a subsystem, or let b_I c_I show something";
+        return Ok(vec![text.to_owned()]);
+    }
+    let rows = if rank(b, 0.0, tolerance)?.rank == b.ncols() { "c_I" } else { "b_I c_I" };
+    let start =
+        format!("choose each row of c_G as a combination of rows of {rows}, {rows} a_I, {rows} a_I^2, ...");
+    let fits = c.norm() > 0.0 && relative_outside(c, M) <= tolerance.residual;
+    Ok(vec![if fits { format!("{start}, for example c_I itself") } else { start }])
+}
+
+/// Detectability of `(alpha_z, gamma_z)`: the PBH test of the whole decides, whatever the eigenvectors of `Gamma_nu` are.
 fn global(
-    hierarchy: &Hierarchy,
-    theorem: &Theorem<'_>,
+    whole: &[PbhMode],
+    tested: (&DMatrix<f64>, &DMatrix<f64>),
     tolerance: &Tolerance,
 ) -> Result<Condition, NumericsError> {
     let mut result = condition(
@@ -113,45 +191,7 @@ fn global(
         "detectability of the whole",
         "(alpha_z, gamma_z) detectable",
     );
-    let alpha = hierarchy.alpha_z();
-    match theorem.block_modes() {
-        Some(modes) if hierarchy.order() > WHOLE => {
-            let region = StabilityRegion::LeftHalfPlane;
-            let margin = region.margin(alpha.norm().max(1.0), tolerance);
-            let modes: Vec<Mode> = modes
-                .iter()
-                .map(|mode| Mode {
-                    point: PointEvidence {
-                        s: mode.pi,
-                        multiplicity: mode.dimension,
-                        distance: mode.distance,
-                        loses_rank: mode.distance <= tolerance.mode,
-                        stable: region.contains(mode.pi, margin),
-                    },
-                    direction: mode.direction.clone(),
-                })
-                .collect();
-            pair(
-                &mut result,
-                &alpha,
-                &modes,
-                "(alpha_z, gamma_z), by the eigenvalues of Gamma_nu",
-                false,
-                tolerance,
-            );
-        }
-        _ => {
-            let modes = pbh_modes(&alpha, &hierarchy.gamma_z(), tolerance)?;
-            pair(
-                &mut result,
-                &alpha,
-                &points_of(&modes, &alpha, tolerance),
-                "(alpha_z, gamma_z)",
-                false,
-                tolerance,
-            );
-        }
-    }
+    judge(&mut result, (whole, tested), ("z", "(alpha_z, gamma_z)"), false, tolerance)?;
     Ok(result)
 }
 
@@ -162,11 +202,7 @@ fn local(network: &Network, tolerance: &Tolerance) -> Result<Condition, Property
         condition(("003-P1-local", "Prop. 1"), "detectability of a subsystem", "(a_I, c_L) detectable");
     let Network { a, c_L, .. } = network;
     let test = |c: &DMatrix<f64>| pbh_modes(a, c, tolerance);
-    pair(&mut result, a, &points_of(&test(c_L)?, a, tolerance), "(a_I, c_L)", false, tolerance);
-    result.needed = !network.local.is_empty();
-    if let Some(witness) = &mut result.witness {
-        witness.coordinates = (1..=a.nrows()).map(|i| format!("x{i}")).collect();
-    }
+    pair(&mut result, (a, c_L), ("x", "(a_I, c_L)"), false, tolerance)?;
     const LARGEST: usize = 16;
     if !result.verdict.holds() && a.nrows() <= LARGEST {
         for i in 0..a.nrows() {
@@ -198,79 +234,18 @@ fn more_outputs(
         let modes = pbh_modes(&alpha, &Psi_N.kronecker(c_GM), tolerance)?;
         Ok(points_of(&modes, &alpha, tolerance).iter().all(Mode::harmless))
     };
+    let (Psi_N, c_GM) = (hierarchy.thin_Psi_N(), hierarchy.thin_c_GM());
     let mut remedies = Vec::new();
     for i in 0..network.n_subsystems() {
         let row = hierarchy.Gamma_N.rows(i, 1).into_owned();
-        if row.norm() > 0.0 && detectable(&stack(&[&hierarchy.Psi_N, &row]), &hierarchy.c_GM)? {
+        if row.norm() > 0.0 && detectable(&stack(&[&Psi_N, &row]), &c_GM)? {
             remedies.push(format!("adding row {} of Gamma to Psi would restore it", i + 1));
         }
     }
-    if detectable(&hierarchy.Psi_N, &stack(&[&hierarchy.c_GM, &hierarchy.c_z]))? {
+    // rows that b_I does not pass on would break (11)
+    let fits = relative_outside(&network.c, &hierarchy.M) <= tolerance.residual;
+    if fits && detectable(&Psi_N, &stack(&[&c_GM, &hierarchy.c_z]))? {
         remedies.push("adding the rows of c_I to c_G would restore it".to_owned());
     }
     Ok(remedies)
-}
-
-/// A tested mode and the direction that is seen least.
-pub(super) struct Mode {
-    point: PointEvidence,
-    direction: Vec<Complex64>,
-}
-
-impl Mode {
-    fn harmless(&self) -> bool {
-        !self.point.loses_rank || self.point.stable
-    }
-}
-
-pub(super) fn points_of(modes: &[PbhMode], A: &DMatrix<f64>, tolerance: &Tolerance) -> Vec<Mode> {
-    let region = StabilityRegion::LeftHalfPlane;
-    let margin = region.margin(A.norm().max(1.0), tolerance);
-    modes
-        .iter()
-        .map(|mode| Mode {
-            point: PointEvidence {
-                s: mode.value,
-                multiplicity: mode.multiplicity,
-                distance: mode.distance,
-                loses_rank: mode.unobservable,
-                stable: region.contains(mode.value, margin),
-            },
-            direction: mode.direction.clone(),
-        })
-        .collect()
-}
-
-/// Fills in verdict, summary, evidence and witness of a pair; `observable` asks of stable modes, too.
-pub(super) fn pair(
-    result: &mut Condition,
-    A: &DMatrix<f64>,
-    modes: &[Mode],
-    of: &str,
-    observable: bool,
-    tolerance: &Tolerance,
-) {
-    let hidden: Vec<&Mode> = modes.iter().filter(|mode| mode.point.loses_rank).collect();
-    let bad = hidden.iter().find(|mode| observable || !mode.point.stable);
-    let narrow = tolerance.mode * tolerance.gap;
-    let near = |mode: &Mode| {
-        !mode.point.loses_rank && mode.point.distance < narrow && (observable || !mode.point.stable)
-    };
-    result.verdict = Verdict::of(bad.is_none(), modes.iter().any(near));
-    result.summary = match (bad, hidden.len()) {
-        (Some(mode), _) if observable => format!("the mode {} is not observable", show(mode.point.s)),
-        (Some(mode), _) => format!("the mode {} is not observable and not stable", show(mode.point.s)),
-        (None, 0) => {
-            let closest = modes.iter().map(|mode| mode.point.distance).fold(f64::INFINITY, f64::min);
-            format!("all {} modes are observable (closest distance {closest:.2e})", A.nrows())
-        }
-        (None, hidden) => format!("{hidden} fixed modes, all stable"),
-    };
-    result.witness = bad.map(|mode| Witness {
-        s: Some(mode.point.s),
-        direction: mode.direction.clone(),
-        coordinates: (1..=A.nrows()).map(|i| format!("z{i}")).collect(),
-    });
-    let points = modes.iter().map(|mode| mode.point.clone()).collect();
-    result.evidence.push(Evidence::Points { of: of.to_owned(), points });
 }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::composite::global_alone;
 use super::verify::verify_network;
-use super::{Hierarchy, LARGEST_COMPOSITE, composite};
+use super::{Hierarchy, HierarchyError, LARGEST_COMPOSITE, composite};
 use crate::numerics::{
     Complex64, Placement, PlacementError, PlacementOptions, StabilityRegion, Tolerance, observable_quotient,
     place_observer,
@@ -52,13 +52,15 @@ pub struct HierarchicalObserver {
     pub global: GlobalObserver,
     /// One place for each subsystem.
     locals: Vec<Option<LocalObserver>>,
+    /// Why local observers that were asked for are missing, in sentences.
+    pub left_out: Vec<String>,
 }
 
 impl HierarchicalObserver {
     /// The global observer alone.
     pub fn new(hierarchy: Hierarchy, global: GlobalObserver) -> Self {
         let locals = vec![None; hierarchy.N.nrows()];
-        Self { hierarchy, global, locals }
+        Self { hierarchy, global, locals, left_out: Vec::new() }
     }
 
     /// Plugs a local observer in, in place of the one that may be there.
@@ -133,8 +135,10 @@ pub fn design_global(
     choice: &DesignChoice,
     tolerance: &Tolerance,
 ) -> Result<GlobalObserver, DesignError> {
-    let placement = place(&hierarchy.alpha_z(), &hierarchy.gamma_z(), &choice.poles, choice, tolerance)
-        .map_err(|error| named("global", error))?;
+    let mut placement =
+        place(&hierarchy.alpha_z(), &hierarchy.thin_gamma_z(), &choice.poles, choice, tolerance)
+            .map_err(|error| named("global", error))?;
+    placement.gain = hierarchy.full_gain(placement.gain);
     Ok(GlobalObserver { H: placement.gain.clone(), placement })
 }
 
@@ -232,10 +236,12 @@ impl HierarchicalDesign {
 /// measurements.
 ///
 /// `choice.poles` are the poles of the global observer, `choice.local_poles` those of the local ones; `choice.scale`
-/// stretches both.
+/// stretches both. Local observers that cannot be had take nothing from the global one: they are left out, and
+/// [`HierarchicalObserver::left_out`] and the notes say why.
 ///
 /// # Errors
-/// The first needed condition that fails, poles that do not fit, or a decomposition that fails its check.
+/// The first condition of the global observer that fails, poles of it that do not fit, or a decomposition that fails its
+/// check.
 ///
 /// # Source
 /// Paper 003, (8), Theorem 1, Proposition 1.
@@ -245,18 +251,38 @@ pub fn design(
     conditions: &[Condition],
     tolerance: &Tolerance,
 ) -> Result<HierarchicalDesign, DesignError> {
-    needed(conditions)?;
-    let hierarchy = Hierarchy::of(network, tolerance)?;
+    design_of(network, Hierarchy::of(network, tolerance), choice, conditions, tolerance)
+}
+
+/// The same with a representation that is known.
+pub(in crate::observer) fn design_of(
+    network: &Network,
+    hierarchy: Result<Hierarchy, HierarchyError>,
+    choice: &DesignChoice,
+    conditions: &[Condition],
+    tolerance: &Tolerance,
+) -> Result<HierarchicalDesign, DesignError> {
+    let (local, global): (Vec<_>, Vec<_>) =
+        conditions.iter().cloned().partition(|condition| condition.id == "003-P1-local");
+    needed(&global)?;
+    let hierarchy = hierarchy?;
     let global = design_global(&hierarchy, choice, tolerance)?;
     let mut notes = notes("global", &global.placement, choice.poles.len());
     let mut observer = HierarchicalObserver::new(hierarchy, global);
     let plugged = choice.plugged.as_ref().unwrap_or(&network.local);
     if !plugged.is_empty() {
-        let local = design_local(network, choice, tolerance)?;
-        notes.extend(self::notes("local", &local.placement, choice.local_poles.len()));
-        for &subsystem in plugged {
-            observer.plug_in(network, subsystem, local.clone())?;
+        match needed(&local).and_then(|()| design_local(network, choice, tolerance)) {
+            Ok(local) => {
+                notes.extend(self::notes("local", &local.placement, choice.local_poles.len()));
+                for &subsystem in plugged {
+                    if let Err(error) = observer.plug_in(network, subsystem, local.clone()) {
+                        observer.left_out.push(error.to_string());
+                    }
+                }
+            }
+            Err(error) => observer.left_out.push(format!("no local observer is plugged in: {error}")),
         }
+        notes.extend(observer.left_out.iter().cloned());
     }
     let verification = verify_network(network, &observer, tolerance)?;
     let count = observer.locals().count();
@@ -268,6 +294,9 @@ pub fn design(
     );
     Ok(HierarchicalDesign { title, matrices: matrices(&observer), observer, verification, notes })
 }
+
+/// Subsystems of one gain whose `beta_z` is listed; of more it follows from `Gamma` in the same way.
+const LISTED: usize = 12;
 
 /// The matrices that a person may want to see.
 fn matrices(observer: &HierarchicalObserver) -> Vec<NamedMatrix> {
@@ -288,11 +317,10 @@ fn matrices(observer: &HierarchicalObserver) -> Vec<NamedMatrix> {
         let Some(&first) = users.first() else { continue };
         let name = if users.len() == 1 { format!("h_{}", first + 1) } else { "h".to_owned() };
         all.push((name, "gain of the local observers", local.h.clone()));
-        all.push((
-            format!("beta_z{}", first + 1),
-            "how the whole drives this subsystem",
-            hierarchy.beta(first),
-        ));
+        for &user in users.iter().take(LISTED) {
+            let meaning = "how the whole drives this subsystem";
+            all.push((format!("beta_z{}", user + 1), meaning, hierarchy.beta(user)));
+        }
     }
     let named = |(name, meaning, value): (String, &str, DMatrix<f64>)| NamedMatrix {
         name,

@@ -16,7 +16,7 @@
 //! | `H`, `h_i` | gains of [`GlobalObserver`] and [`LocalObserver`] | nu mu x P p, n x q | observer (8) |
 //!
 //! What is never formed: `A` and `C` of the whole network, and `sigma_z`. What costs: `Gamma` is multiplied by thin
-//! matrices and gone through once, N^2 nu operations at most; the design itself does not depend on N.
+//! matrices and gone through strip by strip, some N^2 nu operations; the design itself does not depend on N.
 //!
 //! Source: T. Ishizaki, Y. Sakai, K. Kashima and J. Imura, "Hierarchical decentralized observer design for linearly
 //! coupled network systems" (paper 003). N and M are unique up to orthogonal factors from the right.
@@ -27,12 +27,16 @@ mod composite;
 mod conditions;
 mod design;
 mod estimated;
+mod pairs;
 mod representation;
 mod theorem;
 mod verify;
 
+pub use bases::proposed_order;
 pub use composite::{LARGEST_COMPOSITE, composite};
-pub use conditions::conditions;
+pub(super) use conditions::conditions_of;
+pub use conditions::{conditions, conditions_for};
+pub(super) use design::design_of;
 pub use design::{
     GlobalObserver, HierarchicalDesign, HierarchicalObserver, LocalObserver, design, design_global,
     design_local,

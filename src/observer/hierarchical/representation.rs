@@ -71,7 +71,8 @@ impl From<PropertyError> for HierarchyError {
 ///     x_i' = a x_i + beta_i z,   beta_i = (Gamma N)_i kron b c_z
 /// ```
 ///
-/// `N` and `M` are orthonormal bases of the row spaces of `Gamma` and of the observability matrix of `(a, b c)`.
+/// `N` and `M` are orthonormal bases of the row spaces of `Gamma` and of the observability matrix of `(a, b c)`. Where
+/// nothing of a subsystem is shown (mu = 0) the whole is empty, and `N` may be, too.
 ///
 /// # Source
 /// Paper 003, equations (7)-(12), Theorem 1 (which does not need a diagonalisable `Gamma`).
@@ -139,13 +140,18 @@ impl Hierarchy {
 
         let most = MOST_GLOBAL_STATES / M.ncols().max(1);
         let space = row_space(Gamma, most, tolerance)?;
-        let Some(N) = space.basis else {
-            return Err(HierarchyError::TooLarge {
-                nu: space.rank.rank,
-                mu: M.ncols(),
-                exact: space.rank.singular_values.len() >= Gamma.nrows(),
-                allowed: MOST_GLOBAL_STATES,
-            });
+        let N = match space.basis {
+            Some(N) => N,
+            // nothing of a subsystem is shown: whatever Gamma is, there is no whole
+            None if M.ncols() == 0 => DMatrix::zeros(Gamma.nrows(), 0),
+            None => {
+                return Err(HierarchyError::TooLarge {
+                    nu: space.rank.rank,
+                    mu: M.ncols(),
+                    exact: space.rank.singular_values.len() >= Gamma.nrows(),
+                    allowed: MOST_GLOBAL_STATES,
+                });
+            }
         };
         let Gamma_N = Gamma.times(&N);
         let c_z = c * &M;
@@ -182,6 +188,38 @@ impl Hierarchy {
         self.Psi_N.kronecker(&self.c_GM)
     }
 
+    /// `gamma_z` reduced to at most as many rows as it has columns: what it sees is the same.
+    pub(super) fn thin_gamma_z(&self) -> DMatrix<f64> {
+        thin(&self.Psi_N).1.kronecker(&self.thin_c_GM())
+    }
+
+    /// `c_G M` reduced to at most mu rows.
+    pub(super) fn thin_c_GM(&self) -> DMatrix<f64> {
+        thin(&self.c_GM).1
+    }
+
+    /// `Psi N` reduced to at most nu rows.
+    pub(super) fn thin_Psi_N(&self) -> DMatrix<f64> {
+        thin(&self.Psi_N).1
+    }
+
+    /// The gain of [`Self::gamma_z`] that feeds back what a gain of [`Self::thin_gamma_z`] does.
+    ///
+    /// ```text
+    /// Psi N = Q_1 R_1,   c_G M = Q_2 R_2:   H gamma_z = H_thin (Q_1 kron Q_2)' (Q_1 kron Q_2) (R_1 kron R_2)
+    /// ```
+    pub(super) fn full_gain(&self, of_thin: DMatrix<f64>) -> DMatrix<f64> {
+        match (thin(&self.Psi_N).0, thin(&self.c_GM).0) {
+            (None, None) => of_thin,
+            (first, second) => {
+                let unit = |matrix: &DMatrix<f64>| DMatrix::identity(matrix.nrows(), matrix.nrows());
+                let first = first.unwrap_or_else(|| unit(&self.Psi_N));
+                let second = second.unwrap_or_else(|| unit(&self.c_GM));
+                of_thin * first.kronecker(&second).transpose()
+            }
+        }
+    }
+
     /// The rows of `beta_z` that belong to one subsystem: `(Gamma N)_i kron b c_z`, n x nu mu.
     ///
     /// # Panics
@@ -215,4 +253,16 @@ impl Hierarchy {
         let Z = DMatrix::from_column_slice(self.M.ncols(), self.N.ncols(), z.as_slice());
         &self.M * Z * self.N.transpose()
     }
+}
+
+/// A matrix as `Q R` with no more rows in `R` than there are columns; one that has no more anyway is its own `R`.
+fn thin(matrix: &DMatrix<f64>) -> (Option<DMatrix<f64>>, DMatrix<f64>) {
+    if matrix.nrows() <= matrix.ncols() {
+        return (None, matrix.clone());
+    }
+    if matrix.ncols() == 0 {
+        return (Some(matrix.clone()), DMatrix::zeros(0, 0));
+    }
+    let (Q, R) = matrix.clone().qr().unpack();
+    (Some(Q), R)
 }

@@ -4,14 +4,11 @@
 use nalgebra::DMatrix;
 
 use super::Hierarchy;
-use super::blocks::{
-    BlockMode, Eigenspaces, block, block_eigenvalues, block_modes, complex, shifted, smallest,
-};
-use super::conditions::{condition, pair, points_of};
-use crate::numerics::{
-    Complex64, NumericsError, RankDecision, StabilityRegion, Tolerance, pbh_modes, rank, subspaces,
-};
-use crate::observer::{Condition, Evidence, PointEvidence, Verdict, show};
+use super::blocks::{BlockMode, Eigenspaces, block_modes, block_test};
+use super::conditions::condition;
+use super::pairs::{pair, points_of};
+use crate::numerics::{NumericsError, PbhMode, RankDecision, StabilityRegion, Tolerance, rank, subspaces};
+use crate::observer::{Condition, Evidence, PointEvidence, SetEvidence, Verdict, show};
 use crate::system::Network;
 
 /// The numbers that Theorem 2 speaks of; they explain, the PBH test decides.
@@ -24,27 +21,29 @@ pub(super) struct Theorem<'a> {
     tolerance: &'a Tolerance,
     spaces: Eigenspaces,
     rank_Psi_N: RankDecision,
-    /// The modes with their sets `Theta_pi`; none when `Gamma_nu` is not diagonalisable.
+    /// The modes with their sets `Theta_pi`, hidden ones first; none when `Gamma_nu` is not diagonalisable.
     modes: Vec<BlockMode>,
 }
 
 impl<'a> Theorem<'a> {
+    /// `whole` is the PBH test of `(alpha_z, gamma_z)`.
+    ///
     /// # Errors
     /// When a decomposition fails its check.
     pub(super) fn of(
         network: &'a Network,
         hierarchy: &'a Hierarchy,
+        whole: &[PbhMode],
         tolerance: &'a Tolerance,
     ) -> Result<Self, NumericsError> {
         let spaces = Eigenspaces::of(&hierarchy.Gamma_nu)?;
-        let modes = if spaces.diagonalisable() { block_modes(hierarchy, &spaces)? } else { Vec::new() };
+        let modes = if spaces.diagonalisable() {
+            block_modes(hierarchy, &spaces, whole, tolerance)?
+        } else {
+            Vec::new()
+        };
         let rank_Psi_N = rank(&hierarchy.Psi_N, network.Psi.norm(), tolerance)?;
         Ok(Self { network, hierarchy, tolerance, spaces, rank_Psi_N, modes })
-    }
-
-    /// The modes of the whole, block by block; `None` when `Gamma_nu` has no basis of eigenvectors.
-    pub(super) fn block_modes(&self) -> Option<&[BlockMode]> {
-        self.spaces.diagonalisable().then_some(self.modes.as_slice())
     }
 
     /// Whether the global output has a row for each direction of the coupling, which leaves (ii) alone.
@@ -57,8 +56,10 @@ impl<'a> Theorem<'a> {
     /// # Errors
     /// When a decomposition fails its check.
     pub(super) fn conditions(&self) -> Result<Vec<Condition>, NumericsError> {
-        let mut result = vec![self.condition_i()?, self.condition_ii()?, self.condition_iii()];
-        result.extend(self.corollary()?);
+        let first = self.condition_i()?;
+        let corollary = self.corollary(&first)?;
+        let mut result = vec![first, self.condition_ii()?, self.condition_iii()];
+        result.extend(corollary);
         for condition in &mut result {
             condition.needed = false;
         }
@@ -66,21 +67,14 @@ impl<'a> Theorem<'a> {
     }
 
     fn condition_i(&self) -> Result<Condition, NumericsError> {
-        let Hierarchy { Gamma_nu, Psi_N, .. } = self.hierarchy;
         let mut result = condition(
             ("003-T2-i", "Theorem 2 (i)"),
             "observability of the coupling",
             "(Gamma_nu, Psi N) observable",
         );
-        let modes = pbh_modes(Gamma_nu, Psi_N, self.tolerance)?;
-        pair(
-            &mut result,
-            Gamma_nu,
-            &points_of(&modes, Gamma_nu, self.tolerance),
-            "(Gamma_nu, Psi N)",
-            true,
-            self.tolerance,
-        );
+        let of = "(Gamma_nu, Psi N), whose modes s are the eigenvalues lambda of Gamma_nu";
+        let tested = (&self.hierarchy.Gamma_nu, &self.hierarchy.thin_Psi_N());
+        pair(&mut result, tested, ("coupling direction ", of), true, self.tolerance)?;
         result.evidence.push(Evidence::Rank {
             of: "Psi N".to_owned(),
             decision: self.rank_Psi_N.clone(),
@@ -104,39 +98,34 @@ impl<'a> Theorem<'a> {
             "observability of the subsystem under every coupling strength",
             "R(c_G') = R(c_I') or (a_z + lambda b_z c_z, c_G M) observable for all lambda in eig Gamma_nu",
         );
-        let mut points = Vec::new();
-        let c = complex(&self.hierarchy.c_GM);
+        let (mut bad, mut near, mut closest) = (None, false, f64::INFINITY);
         for space in &self.spaces.spaces {
-            let A = block(self.hierarchy, space.lambda);
-            let size = A.norm().hypot(c.norm()).max(f64::MIN_POSITIVE);
-            let mut least = f64::INFINITY;
-            for pi in block_eigenvalues(self.hierarchy, space.lambda)? {
-                least = least.min(smallest(&stacked(&shifted(pi, &A), &c))? / size);
+            let modes = block_test(self.hierarchy, space.lambda, self.tolerance)?;
+            let points = points_of(&modes, &self.hierarchy.a_z, self.tolerance);
+            for point in points.iter().map(|mode| &mode.point) {
+                closest = closest.min(point.distance);
+                if point.loses_rank {
+                    bad = bad.or(Some((space.lambda, point.s)));
+                } else {
+                    near |= point.distance <= self.tolerance.mode * self.tolerance.gap;
+                }
             }
-            points.push(PointEvidence {
-                s: space.lambda,
-                multiplicity: space.vectors.ncols(),
-                distance: least,
-                loses_rank: least <= self.tolerance.mode,
-                stable: false,
+            result.evidence.push(Evidence::Points {
+                of: format!("(a_z + lambda b_z c_z, c_G M) at lambda = {}", show(space.lambda)),
+                points: points.into_iter().map(|mode| mode.point).collect(),
             });
         }
-        let bad = points.iter().find(|point| point.loses_rank);
-        let near = |point: &PointEvidence| {
-            !point.loses_rank && point.distance <= self.tolerance.mode * self.tolerance.gap
-        };
         let same = self.same_outputs()?;
-        result.verdict = Verdict::of(same || bad.is_none(), !same && points.iter().any(near));
-        let closest = points.iter().map(|point| point.distance).fold(f64::INFINITY, f64::min);
+        result.verdict = Verdict::of(same || bad.is_none(), !same && near);
         result.summary = match bad {
             _ if same => "c_G and c_I have the same row space".to_owned(),
-            Some(point) => {
-                format!("at lambda = {} a part of the subsystem is invisible to c_G", show(point.s))
-            }
-            None => format!("{} values of lambda, closest distance {closest:.2e}", points.len()),
+            Some((lambda, pi)) => format!(
+                "at lambda = {} the mode {} of the subsystem is invisible to c_G",
+                show(lambda),
+                show(pi)
+            ),
+            None => format!("{} values of lambda, closest distance {closest:.2e}", self.spaces.spaces.len()),
         };
-        let of = "(a_z + lambda b_z c_z, c_G M) at the eigenvalues of Gamma_nu".to_owned();
-        result.evidence.push(Evidence::Points { of, points });
         Ok(result)
     }
 
@@ -159,20 +148,32 @@ impl<'a> Theorem<'a> {
             "ker (Psi N kron c_G M) meets span V_pi only in 0 for all pi with |Theta_pi| >= 2",
         );
         let condition_number = self.spaces.condition;
-        if !self.spaces.diagonalisable() {
+        let of_vectors = format!("eigenvectors of Gamma_nu have condition {condition_number:.2e}");
+        if self.sees_every_direction() {
+            result.verdict = Verdict::Holds;
+            result.summary = format!("not needed, since rank Psi N = nu; {of_vectors}");
+        } else if !self.spaces.diagonalisable() {
             result.summary = format!(
                 "Gamma_nu is not diagonalisable (condition of its eigenvectors {condition_number:.1e}), which Theorem 2 \
                  assumes; the PBH test of the whole pair decides"
             );
-            return result;
+        } else {
+            self.decide_iii(&mut result);
+            result.summary = format!("{}; {of_vectors}", result.summary);
         }
+        if self.spaces.diagonalisable() {
+            result.evidence.extend(self.shared_modes());
+        }
+        result
+    }
+
+    fn decide_iii(&self, result: &mut Condition) {
         let shared: Vec<&BlockMode> = self.modes.iter().filter(|mode| mode.theta.len() >= 2).collect();
-        let hidden = shared.iter().find(|mode| mode.distance <= self.tolerance.mode);
+        let hidden = shared.iter().find(|mode| mode.hidden);
         let limit = self.tolerance.mode * self.tolerance.gap;
-        let near = shared.iter().any(|mode| mode.distance <= limit && mode.distance > self.tolerance.mode);
-        result.verdict = Verdict::of(self.sees_every_direction() || hidden.is_none(), near);
+        let near = shared.iter().any(|mode| mode.distance <= limit && !mode.hidden);
+        result.verdict = Verdict::of(hidden.is_none(), near);
         result.summary = match hidden {
-            _ if self.sees_every_direction() => "not asked, since rank Psi N = nu".to_owned(),
             Some(mode) => format!(
                 "the mode {} is shared by {} eigenvalues of Gamma_nu, and a combination is invisible",
                 show(mode.pi),
@@ -181,24 +182,44 @@ impl<'a> Theorem<'a> {
             None if shared.is_empty() => "every |Theta_pi| is 1: no mode is shared".to_owned(),
             None => format!("{} shared modes, all visible", shared.len()),
         };
-        result.summary =
-            format!("{}; eigenvectors of Gamma_nu have condition {condition_number:.2e}", result.summary);
+    }
+
+    /// The modes, and the eigenvalues of `Gamma_nu` that have each of them.
+    fn shared_modes(&self) -> [Evidence; 2] {
         let region = StabilityRegion::LeftHalfPlane;
         let points = self.modes.iter().map(|mode| PointEvidence {
             s: mode.pi,
             multiplicity: mode.theta.len(),
             distance: mode.distance,
-            loses_rank: mode.distance <= self.tolerance.mode,
+            loses_rank: mode.hidden,
             stable: region.contains(mode.pi, self.tolerance.margin),
         });
-        let of = "pi, with |Theta_pi| as multiplicity, and gamma_z on span V_pi".to_owned();
-        result.evidence.push(Evidence::Points { of, points: points.collect() });
-        result
+        let lambda = |k: &usize| self.spaces.spaces.get(*k).map(|space| space.lambda);
+        let sets = self.modes.iter().map(|mode| SetEvidence {
+            element: mode.pi,
+            members: mode.theta.iter().filter_map(lambda).collect(),
+            dimension: mode.dimension,
+        });
+        [
+            Evidence::Points {
+                of: "gamma_z on span V_pi, with |Theta_pi| as multiplicity".to_owned(),
+                points: points.collect(),
+            },
+            Evidence::Sets {
+                of: "Theta_pi, the lambda in eig Gamma_nu for which a_z + lambda b_z c_z has the mode pi"
+                    .to_owned(),
+                names: ["pi", "Theta_pi", "V_pi"].map(str::to_owned),
+                sets: sets.collect(),
+            },
+        ]
     }
 
     /// Corollary 1: with one coupling channel and one output row, (iii) is controllability of `(a_z, b_z)`.
     // ERRATUM(003, proof of Corollary 1): the print has d(pi) = n(pi); a shared mode needs d(pi) = n(pi) = 0.
-    fn corollary(&self) -> Result<Option<Condition>, NumericsError> {
+    ///
+    /// It is asked where Theorem 2 asks (iii), and speaks of networks that fulfil (i): only then have several eigenvalues
+    /// of `Gamma_nu` to be told apart by one output.
+    fn corollary(&self, first: &Condition) -> Result<Option<Condition>, NumericsError> {
         let Hierarchy { a_z, b_z, c_GM, .. } = self.hierarchy;
         if b_z.ncols() != 1 || c_GM.nrows() != 1 || self.hierarchy.order() == 0 {
             return Ok(None);
@@ -208,30 +229,19 @@ impl<'a> Theorem<'a> {
             "controllability of the subsystem's shown part",
             "(a_z, b_z) controllable",
         );
-        let dual = a_z.transpose();
-        let modes = pbh_modes(&dual, &b_z.transpose(), self.tolerance)?;
-        pair(
-            &mut result,
-            &dual,
-            &points_of(&modes, &dual, self.tolerance),
-            "(a_z', b_z')",
-            true,
-            self.tolerance,
-        );
+        if self.sees_every_direction() {
+            "not asked, since rank Psi N = nu".clone_into(&mut result.summary);
+            return Ok(Some(result));
+        }
+        if !first.verdict.holds() {
+            "not asked: it speaks of networks that fulfil (i)".clone_into(&mut result.summary);
+            return Ok(Some(result));
+        }
+        let tested = (&a_z.transpose(), &b_z.transpose());
+        pair(&mut result, tested, ("shown state ", "(a_z', b_z')"), true, self.tolerance)?;
         result.summary = result.summary.replace("observable", "controllable");
         Ok(Some(result))
     }
-}
-
-fn stacked(top: &DMatrix<Complex64>, bottom: &DMatrix<Complex64>) -> DMatrix<Complex64> {
-    let t = top.nrows();
-    DMatrix::from_fn(
-        t + bottom.nrows(),
-        top.ncols(),
-        |i, j| {
-            if i < t { top[(i, j)] } else { bottom[(i - t, j)] }
-        },
-    )
 }
 
 /// Orthonormal basis of the row space, as columns.
@@ -239,7 +249,9 @@ fn row_space(matrix: &DMatrix<f64>, tolerance: &Tolerance) -> Result<DMatrix<f64
     Ok(subspaces(matrix, 0.0, tolerance)?.row_space)
 }
 
-/// The part of the rows that lies outside a space with orthonormal basis `Q`, relative to the rows; zero for no rows.
+/// The largest part of a row that lies outside a space with orthonormal basis `Q`, relative to that row; zero for no rows.
 pub(super) fn relative_outside(rows: &DMatrix<f64>, Q: &DMatrix<f64>) -> f64 {
-    (rows - rows * Q * Q.transpose()).norm() / rows.norm().max(f64::MIN_POSITIVE)
+    let outside = rows - rows * Q * Q.transpose();
+    let each = outside.row_iter().zip(rows.row_iter());
+    each.map(|(out, row)| out.norm() / row.norm().max(f64::MIN_POSITIVE)).fold(0.0, f64::max)
 }
