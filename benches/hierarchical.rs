@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, dmatrix};
 
 /// Rank of the coupling.
 const HUBS: usize = 3;
-const SIZES: [usize; 3] = [10, 100, 1000];
+const SIZES: [usize; 5] = [125, 250, 500, 1000, 2000];
 
 fn main() {
     divan::main();

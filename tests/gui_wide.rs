@@ -159,7 +159,7 @@ fn errata_stand_beside_what_they_concern_and_in_a_list() {
     harness.get_by_label_contains("Misprint, section III, d_hat: ");
     harness
         .get_by_label_contains("Not unique, section III, L: printed \"L = [0 6 1; 6 2 0]\", right as well");
-    harness.get_by_label_contains("Omission, Theorem 2: ");
+    harness.get_by_label("Errata beside N");
     let pairs = |harness: &Harness<'_, App>| {
         ["printed", "printed, right as well"].map(|word| harness.query_all_by_label(word).count())
     };
@@ -174,7 +174,7 @@ fn errata_stand_beside_what_they_concern_and_in_a_list() {
     type_into(&mut harness, "A[3, 2]", "3");
     assert_eq!(pairs(&harness), [0, 0], "what is printed does not belong to this one");
     assert!(harness.query_by_label_contains("printed \"G = ").is_none(), "nor what is said of it");
-    harness.get_by_label_contains("Omission, Theorem 2: ");
+    harness.get_by_label("Errata beside N");
     click(&mut harness, "Undo");
     assert!(harness.query_by_label("section III, d_hat").is_none(), "the list is folded");
     click(&mut harness, "Errata of paper 001 (5)");

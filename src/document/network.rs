@@ -26,7 +26,13 @@ pub(super) fn read_network(cursor: &Cursor<'_>) -> Result<NetworkData, DocumentE
     let big = data.Gamma.shape().0;
     if let Some(local) = object.get("local") {
         for item in local.list(MAX_SUBSYSTEMS, "subsystem numbers")? {
-            data.local.push(usize::try_from(item.whole_in(1, big as u64)?).unwrap_or(usize::MAX));
+            let number = usize::try_from(item.whole_in(1, big as u64)?).unwrap_or(usize::MAX);
+            if data.local.contains(&number) {
+                return Err(
+                    item.error("each subsystem with local measurements stands once in the list".to_owned())
+                );
+            }
+            data.local.push(number);
         }
     }
     data.network().map_err(|error| at_matrix(cursor.path(), &error))?;

@@ -174,6 +174,9 @@ pub(super) fn at_matrix(place: &str, error: &SystemError) -> DocumentError {
         SystemError::TooLarge { found, .. } => {
             DocumentError::at(place, format!("{found} states"), error.to_string())
         }
+        SystemError::GlobalOutputs { found, .. } => {
+            DocumentError::at(place, format!("{found} global outputs"), error.to_string())
+        }
     }
 }
 

@@ -10,6 +10,7 @@ use crate::document::limits::{MAX_SIDE, MAX_SUBSYSTEMS};
 use crate::document::{
     Coupling, Document, Entry, EntryMatrix, NetworkData, NetworkMatrix, PlantData, matrix_from_text,
 };
+use crate::system::MOST_GLOBAL_OUTPUTS;
 
 /// Changes the network of a document; what else the document holds follows afterwards.
 pub(super) fn change(document: &mut Document, edit: NetworkEdit) -> Edited {
@@ -178,6 +179,7 @@ fn beyond(sizes: &Sizes) -> Option<Edited> {
         ("rows of c_G", global, MAX_SIDE),
         ("rows of c_L", local, MAX_SIDE),
         ("rows of Psi", combinations, MAX_SUBSYSTEMS),
+        ("rows of Psi times rows of c_G", global * combinations, MOST_GLOBAL_OUTPUTS),
     ];
     all.into_iter().find(|(_, wanted, limit)| wanted > limit).map(|(what, wanted, limit)| {
         Edited::Refused(format!("{wanted} {what} are wanted; at most {limit} are possible"))

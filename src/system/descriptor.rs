@@ -76,6 +76,17 @@ pub enum SystemError {
         /// The limit.
         limit: usize,
     },
+    /// More global outputs than a network may have.
+    #[error(
+        "Psi kron c_G has {found} rows, one for each pair of a row of Psi and a row of c_G; at most {limit} are possible: \
+         leave out rows that are combinations of others, which show nothing more"
+    )]
+    GlobalOutputs {
+        /// Rows of `Psi kron c_G`.
+        found: usize,
+        /// The limit, [`super::MOST_GLOBAL_OUTPUTS`].
+        limit: usize,
+    },
     /// No states at all.
     #[error("E has no columns: a system needs at least one state")]
     NoStates,

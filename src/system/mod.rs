@@ -14,7 +14,7 @@ pub use coupling::CouplingMatrix;
 pub use descriptor::{DescriptorSystem, SystemError, TimeDomain};
 pub use lipschitz::{LipschitzError, LipschitzTerm, nonlinearity};
 pub use model::Model;
-pub use network::Network;
+pub use network::{MOST_GLOBAL_OUTPUTS, Network};
 pub use partition::{PartitionError, Subsystem, check_partition};
 pub use sampled_constant::{LargestRatio, SampleRegion, SampledConstant};
 pub use signal::Signal;

@@ -34,6 +34,10 @@ pub struct Network {
     pub local: Vec<usize>,
 }
 
+/// Most rows of `Psi kron c_G`. No more than `nu mu` of them, at most 48, can show anything new, and every test of the
+/// global output works on all.
+pub const MOST_GLOBAL_OUTPUTS: usize = 200;
+
 impl Network {
     /// Number of subsystems N.
     pub fn n_subsystems(&self) -> usize {
@@ -57,6 +61,10 @@ impl Network {
                 needed: (big, big),
                 reason: "Gamma is square",
             });
+        }
+        if big == 0 {
+            let reason = "a network has at least one subsystem";
+            return Err(SystemError::Shape { matrix: "Gamma", found: (0, 0), needed: (1, 1), reason });
         }
         let reach = self.Gamma.reach();
         if reach.0.max(reach.1) > big {
@@ -85,6 +93,10 @@ impl Network {
                     column: at / given.nrows(),
                 });
             }
+        }
+        let global = self.Psi.nrows() * self.c_G.nrows();
+        if global > MOST_GLOBAL_OUTPUTS {
+            return Err(SystemError::GlobalOutputs { found: global, limit: MOST_GLOBAL_OUTPUTS });
         }
         let last = self.local.iter().max().map_or(0, |i| i + 1);
         if last > big {
@@ -153,12 +165,31 @@ mod tests {
     }
 
     #[test]
+    fn more_global_outputs_than_can_be_tested_are_refused() {
+        let many = |rows| DMatrix::from_element(rows, 2, 1.0);
+        let network = |rows| Network { Psi: many(rows), c_G: dmatrix![1.0; 2.0], ..pair() };
+        assert!(network(MOST_GLOBAL_OUTPUTS / 2).checked().is_ok(), "as many as are possible");
+        let found = network(MOST_GLOBAL_OUTPUTS / 2 + 1).checked();
+        assert!(
+            matches!(found, Err(SystemError::GlobalOutputs { found: 202, limit: MOST_GLOBAL_OUTPUTS })),
+            "{found:?}"
+        );
+    }
+
+    #[test]
     fn a_coupling_of_the_wrong_shape_is_named() {
         let network = Network { Gamma: dmatrix![0.0, 1.0].into(), ..pair() };
         assert!(
             matches!(network.checked(), Err(SystemError::Shape { matrix: "Gamma", .. })),
             "Gamma is not square"
         );
+    }
+
+    #[test]
+    fn a_network_without_subsystems_is_refused() {
+        let network = Network { Gamma: DMatrix::zeros(0, 0).into(), Psi: DMatrix::zeros(0, 0), ..pair() };
+        let found = network.checked();
+        assert!(matches!(found, Err(SystemError::Shape { matrix: "Gamma", found: (0, 0), .. })), "{found:?}");
     }
 
     #[test]
