@@ -73,22 +73,22 @@ export default async ({ step, open }) => {
 
   await step('every method has a light with its reason, and five designs stand in one table', async () => {
     const [page, state] = await opened(open, /One plant, five observers/, 'input-decoupled');
-    const lights = Object.fromEntries(state.lights);
+    const lights = Object.fromEntries(state.lmi.lights);
     assert.deepEqual(lights, {
       'proportional-integral': 'Exists', proportional: 'Exists', 'input-decoupled': 'Exists', 'h-infinity-lipschitz': 'Exists',
       decentralized: 'Missing', hierarchical: 'Missing',
     }, 'there are no subsystems and no network');
     await page.click('button', 'Why: 4 of 6 methods exist');
-    await plotted(page, /note: Decentralized observers need subsystems/);
-    await plotted(page, /is seen when it is designed/);
+    await seen(page, /note: Decentralized observers need subsystems/);
+    await seen(page, /is seen when it is designed/);
     await page.click('button', 'Compare');
     const compared = await page.until((found) => settled(found) && found.compared && found.compare.length === 5, 'the table');
     assert.ok(compared.compare.every((row) => row.verified), JSON.stringify(compared.compare));
     assert.deepEqual(compared.compare.map((row) => row.order), [2, 2, 4, 4, 3], 'orders, the chosen design first');
     for (const line of ['Order', 'Spectrum', 'd to e', 'noise to e', 'rms e']) {
-      await plotted(page, new RegExp(`^note: ${line}`));
+      await seen(page, new RegExp(`^note: ${line}`));
     }
-    await plotted(page, /note: 0, decoupled/);
+    await seen(page, /note: 0, decoupled/);
   });
 
   await step('the trade-off of bandwidth and noise is drawn, and follows an edit', async () => {
