@@ -31,6 +31,8 @@ mod large;
 #[cfg(not(target_arch = "wasm32"))]
 #[path = "paper_003/random.rs"]
 mod random;
+#[path = "paper_003/reference.rs"]
+mod reference;
 #[path = "paper_003/verdicts.rs"]
 mod verdicts;
 
