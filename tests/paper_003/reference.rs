@@ -24,11 +24,13 @@ fn flag(value: &Value) -> bool {
 }
 
 fn points(condition: &Condition) -> Vec<&[PointEvidence]> {
-    let points = |evidence| match evidence {
-        &Evidence::Points { ref points, .. } => Some(points.as_slice()),
-        _ => None,
-    };
-    condition.evidence.iter().filter_map(points).collect()
+    let mut found = Vec::new();
+    for evidence in &condition.evidence {
+        if let Evidence::Points { points, .. } = evidence {
+            found.push(points.as_slice());
+        }
+    }
+    found
 }
 
 #[test]
@@ -99,9 +101,9 @@ fn sizes_and_inclusions_are_those_of_the_file() {
     let (reference, network) = (reference(), network());
     let conditions_of = &reference["conditions"];
     let found = Hierarchy::of(&network, &tolerance()).unwrap();
-    let sizes = (found.N.ncols(), found.M.ncols(), found.order());
+    let sizes = [found.N.ncols(), found.M.ncols(), found.order()];
     let expected = ["nu", "mu", "n_z"].map(|key| number(&conditions_of[key]));
-    assert_eq!(sizes, (expected[0], expected[1], expected[2]), "nu, mu, n_z");
+    assert_eq!(sizes, expected, "nu, mu, n_z");
     let cond11 = &conditions_of["cond11"];
     let outside =
         |rows: &DMatrix<f64>, Q: &DMatrix<f64>| (rows - rows * Q * Q.transpose()).norm() / rows.norm();
